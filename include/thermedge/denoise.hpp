@@ -1,0 +1,67 @@
+// Denoisers for single frames: Gaussian, non-local means, BM3D.
+#pragma once
+
+#include <memory>
+
+#include "thermedge/image.hpp"
+#include "thermedge/parallel.hpp"
+#include "thermedge/result.hpp"
+
+namespace thermedge {
+
+enum class DenoiseMethod { kNone, kGaussian, kNlm, kBm3d };
+
+struct GaussianOptions {
+  double sigma_px = 0;  // 0: the 5x5 kernel of eq. 5 (sum 159); else a Gaussian, 0.3..20 px
+};
+
+// Buades, Coll, Morel 2005; figures of the paper's author: patch 5, search 7, h 0.15 of the range.
+struct NlmOptions {
+  int patch_px = 7;           // side of the compared patches, odd, 1..15
+  int search_px = 21;         // side of the search window, odd, 1..41; time grows with its square
+  double h_over_sigma = 0.9;  // filter strength in units of the noise, 0.1..5
+};
+
+// Dabov et al. 2007, parameters as in Lebrun's analysis (IPOL 2012).
+struct Bm3dOptions {
+  int step_px = 3;            // distance of reference blocks, 1..8; time falls with its square
+  int search_radius_px = 16;  // +- displacement of matched blocks, 4..32
+  int group_hard = 16;        // most blocks in a group of stage 1: 1, 2, 4, 8, 16 or 32
+  int group_wiener = 32;      // most blocks in a group of stage 2: 1, 2, 4, 8, 16 or 32
+  double lambda = 2.7;        // hard threshold in units of sigma, 0.5..10
+  double kaiser_beta = 2.0;   // window of the aggregation, 0..10
+  bool wiener = true;         // run stage 2 (costs as much as stage 1, gives about 0.4 dB)
+};
+
+struct DenoiseOptions {
+  DenoiseMethod method = DenoiseMethod::kBm3d;
+  double sigma_counts = 0;  // noise told to nlm and bm3d, in counts; 0: as measured on the frame
+  GaussianOptions gaussian;
+  NlmOptions nlm;
+  Bm3dOptions bm3d;
+};
+
+// Runs the chosen method. Holds the scratch memory of a frame size: after the second frame of one
+// size nothing is allocated. One Denoiser per thread; the work is spread over `runner`.
+// The result is bit-identical for every Runner and SIMD target.
+class Denoiser {
+ public:
+  explicit Denoiser(const DenoiseOptions& options);
+  Denoiser(Denoiser&&) noexcept;
+  Denoiser& operator=(Denoiser&&) noexcept;
+  ~Denoiser();
+
+  // `in` -> `out`, same size, any range of values; `sigma` is the noise in the units of `in`
+  // (options.sigma_counts is for the caller to interpret). `out` may be `in`.
+  // Frames smaller than a block are mirrored out, so every size from 1x1 works.
+  // Errors: sizes differ or empty; a pixel is NaN or infinite; an option out of range; for nlm and
+  // bm3d, sigma NaN, infinite or negative. Sigma 0 copies the frame.
+  [[nodiscard]] Status run(ImageView<const float> in, double sigma, ImageView<float> out,
+                           Runner& runner);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace thermedge

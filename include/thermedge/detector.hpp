@@ -1,0 +1,71 @@
+// The whole detector: a frame of counts in, ranked smooth edges out (paper Algorithm 6).
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "thermedge/contours.hpp"
+#include "thermedge/edges.hpp"
+#include "thermedge/image.hpp"
+#include "thermedge/linking.hpp"
+#include "thermedge/noise.hpp"
+#include "thermedge/nuc.hpp"
+#include "thermedge/options.hpp"
+#include "thermedge/parallel.hpp"
+#include "thermedge/result.hpp"
+
+namespace thermedge {
+
+// Wall time of each stage of the last frame, ms.
+struct StageTimes {
+  double noise = 0, nuc = 0, scale = 0, denoise = 0, canny = 0, contours = 0, corners = 0,
+         linking = 0, scoring = 0, measure = 0;
+  [[nodiscard]] double total() const;
+};
+
+// What one frame gave. Everything is owned by the detector and stays valid until its next call.
+struct Detection {
+  int width = 0, height = 0;
+  NoiseEstimate noise;                      // zero where the input was an edge map
+  double sigma_counts = 0;                  // the noise that the denoiser was told
+  EdgeSet edges;
+  StageTimes ms;
+  // Intermediate pictures and sets, for looking at each step; empty where a step did not run.
+  std::vector<DeadPixel> dead_pixels;
+  ImageView<const std::uint16_t> corrected; // counts after nuc
+  ImageView<const std::uint8_t> levels;     // Algorithm 1
+  ImageView<const std::uint8_t> denoised;   // what Canny saw
+  ImageView<const std::uint8_t> edge_map;   // what the tracer saw: 255 edge, 0 none
+  const ContourSet* contours = nullptr;     // before linking
+  const LinkedContours* linked = nullptr;
+};
+
+// Detects edges frame by frame. Not thread-safe: one detector per thread; it spreads the work of a
+// frame over its own threads. Allocates nothing after the second frame of one size. Results are
+// bit-identical for every number of threads and SIMD target.
+class Detector {
+ public:
+  // Fails where an option is out of range.
+  [[nodiscard]] static Result<Detector> create(const DetectorOptions& options);
+  Detector(Detector&&) noexcept;
+  Detector& operator=(Detector&&) noexcept;
+  ~Detector();
+
+  // `frame`: raw counts (8-bit pictures: their grey levels, with bits = 8, which skips the scaling
+  // of Algorithm 1). Errors: empty frame, out of memory.
+  [[nodiscard]] Result<const Detection*> detect(ImageView<const std::uint16_t> frame,
+                                                int bits = 16);
+
+  // The second half alone, on somebody else's binary edge map (nonzero = edge).
+  [[nodiscard]] Result<const Detection*> trace(ImageView<const std::uint8_t> edge_map);
+
+  [[nodiscard]] const DetectorOptions& options() const;
+
+ private:
+  struct Impl;
+  explicit Detector(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace thermedge

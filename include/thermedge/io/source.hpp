@@ -1,0 +1,66 @@
+// Where frames come from: picture files, directories, globs, raw streams.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "thermedge/image.hpp"
+#include "thermedge/limits.hpp"
+#include "thermedge/result.hpp"
+
+namespace thermedge::io {
+
+// One frame as read. 8-bit pictures are widened, not scaled.
+struct Frame {
+  Image<std::uint16_t> counts;
+  int bits = 16;           // 8 or 16: of a pixel in the file
+  std::string source;      // the file as the user named it, with "[page]" behind a multi-page one
+  std::string stem;        // unique name for results: file stem, "_0007" behind a multi-page one
+  std::int64_t index = 0;  // 0, 1, 2 ... within the source
+};
+
+enum class RawFormat { kGray16Le, kGray16Be, kGray8 };
+
+struct SourceOptions {
+  Limits limits;
+  int raw_width = 0;  // size of frames in .raw files and on standard input, px; 0: not given
+  int raw_height = 0;
+  RawFormat raw_format = RawFormat::kGray16Le;
+};
+
+// A sequence of frames. One caller at a time.
+class FrameSource {
+ public:
+  virtual ~FrameSource() = default;
+  // Reads the next frame into `frame` (its memory is reused). true: a frame; false: the end. After an
+  // error, the next call goes on behind the bad file.
+  [[nodiscard]] virtual Result<bool> next(Frame& frame) = 0;
+  // Number of files or frames there will be, as far as known; 0: not known.
+  [[nodiscard]] virtual std::size_t size_hint() const = 0;
+};
+
+// Opens files, directories (every picture in it, natural order: 2 before 10), globs (also when the
+// shell did not expand them) and "-" (raw frames on standard input), in the order given.
+// The kind of a file is found by its content: PNG 8/16 bit grey, TIFF 8/16 bit grey (uncompressed,
+// LZW, deflate; multi-page), PGM 8/16 bit, NPY (uint8, uint16; 2-D, or 3-D as a stack). Files named
+// .raw, and "-", are headerless and need raw_width and raw_height.
+// Errors: nothing matches an input; an unknown kind of file where it is the only one named.
+[[nodiscard]] Result<std::unique_ptr<FrameSource>> open_files(
+    const std::vector<std::string>& inputs, const SourceOptions& options);
+
+// Decodes a picture in memory; `name` is for messages. `page`: 0-based, of a TIFF or a stack.
+[[nodiscard]] Status decode_picture(std::span<const std::byte> bytes, const std::string& name,
+                                    const Limits& limits, std::size_t page, Frame& frame);
+
+// Number of pages of a picture in memory: 1 but for multi-page TIFF and 3-D NPY.
+[[nodiscard]] Result<std::size_t> count_pages(std::span<const std::byte> bytes,
+                                              const std::string& name, const Limits& limits);
+
+// The first page of one picture file.
+[[nodiscard]] Result<Frame> read_picture(const std::string& path, const Limits& limits = {});
+
+}  // namespace thermedge::io

@@ -1,0 +1,216 @@
+// The options of the whole detector, and every option with its name, range and meaning in one place:
+// the range checks, the TOML reader and writer, `--set` and `--dump-config` all walk these lists.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <concepts>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+
+#include "thermedge/canny.hpp"
+#include "thermedge/contours.hpp"
+#include "thermedge/corners.hpp"
+#include "thermedge/denoise.hpp"
+#include "thermedge/linking.hpp"
+#include "thermedge/nuc.hpp"
+#include "thermedge/radiometry.hpp"
+#include "thermedge/result.hpp"
+#include "thermedge/scoring.hpp"
+
+namespace thermedge {
+
+// Named sets of defaults. A preset is nothing but options: what it sets can be changed one by one.
+enum class Preset { kPaper };
+
+struct DetectorOptions {
+  Preset preset = Preset::kPaper;
+  int threads = 0;  // 0: one per core
+  NucOptions nuc;
+  ScaleOptions scale;
+  DenoiseOptions denoise;
+  CannyOptions canny;
+  ContourOptions contours;
+  CornerOptions corners;
+  LinkingOptions linking;
+  ScoringOptions scoring;
+};
+
+[[nodiscard]] DetectorOptions preset_options(Preset preset);
+[[nodiscard]] std::string_view preset_name(Preset preset);
+
+// Fails with one line that names the first option out of range and its range.
+[[nodiscard]] Status check_options(const DetectorOptions& options);
+
+struct Bounds {
+  double min;
+  double max;
+};
+
+template <class E>
+struct EnumName {
+  E value;
+  std::string_view name;
+};
+inline constexpr std::array kDenoiseMethods = {
+    EnumName{DenoiseMethod::kNone, "none"}, EnumName{DenoiseMethod::kGaussian, "gaussian"},
+    EnumName{DenoiseMethod::kNlm, "nlm"}, EnumName{DenoiseMethod::kBm3d, "bm3d"}};
+inline constexpr std::array kPresets = {EnumName{Preset::kPaper, "paper"}};
+
+template <class O, class Options>
+concept OptionsOf = std::same_as<std::remove_const_t<O>, Options>;
+
+// visit_options(options, visitor) calls, for each field in order,
+//   visitor(name, field, bounds, help)   numbers: bool, int, double (bool has bounds 0..1)
+//   visitor(name, field, names, help)    enumerations, `names` an array of EnumName
+// Nested option structs are visited under "<name>." by the visitor's own `group(name, options)`.
+
+template <OptionsOf<NucOptions> O, class V>
+void visit_options(O& o, V&& v) {
+  v("dead_pixels", o.dead_pixels, Bounds{0, 1}, "replace dead pixels by their neighbours' median");
+  v("dead_pixel_sigmas", o.dead_pixel_sigmas, Bounds{1, 1000},
+    "how far outside its neighbours' range a pixel is dead, in sigma");
+}
+
+template <OptionsOf<ScaleOptions> O, class V>
+void visit_options(O& o, V&& v) {
+  v("gain", o.gain, Bounds{1e-6, 1000}, "grey levels per count (0.5: 0.02 degC a level)");
+}
+
+template <OptionsOf<GaussianOptions> O, class V>
+void visit_options(O& o, V&& v) {
+  v("sigma_px", o.sigma_px, Bounds{0, 20}, "standard deviation, px (0: the 5x5 kernel of eq. 5)");
+}
+
+template <OptionsOf<NlmOptions> O, class V>
+void visit_options(O& o, V&& v) {
+  v("patch_px", o.patch_px, Bounds{1, 15}, "side of the compared patches, odd, px");
+  v("search_px", o.search_px, Bounds{1, 41}, "side of the search window, odd, px");
+  v("h_over_sigma", o.h_over_sigma, Bounds{0.1, 5}, "filter strength in units of the noise");
+}
+
+template <OptionsOf<Bm3dOptions> O, class V>
+void visit_options(O& o, V&& v) {
+  v("step_px", o.step_px, Bounds{1, 8}, "distance of reference blocks, px");
+  v("search_radius_px", o.search_radius_px, Bounds{4, 32}, "reach of block matching, px");
+  v("group_hard", o.group_hard, Bounds{1, 32}, "most blocks a group in stage 1, a power of two");
+  v("group_wiener", o.group_wiener, Bounds{1, 32}, "most blocks a group in stage 2, a power of two");
+  v("lambda", o.lambda, Bounds{0.5, 10}, "hard threshold in units of the noise");
+  v("kaiser_beta", o.kaiser_beta, Bounds{0, 10}, "shape of the aggregation window");
+  v("wiener", o.wiener, Bounds{0, 1}, "run the second stage");
+}
+
+template <OptionsOf<DenoiseOptions> O, class V>
+void visit_options(O& o, V&& v) {
+  v("method", o.method, kDenoiseMethods, "none, gaussian, nlm or bm3d");
+  v("sigma_counts", o.sigma_counts, Bounds{0, 65535}, "noise, counts (0: measured on each frame)");
+  v.group("gaussian", o.gaussian);
+  v.group("nlm", o.nlm);
+  v.group("bm3d", o.bm3d);
+}
+
+template <OptionsOf<CannyOptions> O, class V>
+void visit_options(O& o, V&& v) {
+  v("high_threshold", o.high_threshold, Bounds{0, 1e6},
+    "Sobel magnitude of a certain edge, grey levels (0: automatic)");
+  v("non_edge_share", o.non_edge_share, Bounds{0, 1}, "automatic: share of pixels below the high one");
+  v("low_over_high", o.low_over_high, Bounds{0, 1}, "low threshold as a share of the high one");
+}
+
+template <OptionsOf<ContourOptions> O, class V>
+void visit_options(O& o, V&& v) {
+  v("min_component_px", o.min_component_px, Bounds{0, 1e9},
+    "components with fewer pixels are removed (0: none)");
+  v("gap_px", o.gap_px, Bounds{1, 8}, "reach of a walking step, px");
+  v("min_length_px", o.min_length_px, Bounds{0, 1e9},
+    "shortest curve, px (0: more than (width + height) / 25)");
+  v("closed_gap_px", o.closed_gap_px, Bounds{0, 100}, "ends this near close a curve, px");
+}
+
+template <OptionsOf<CornerOptions> O, class V>
+void visit_options(O& o, V&& v) {
+  v("sigma_px", o.sigma_px, Bounds{0.5, 10}, "smoothing of the curve before curvature, px");
+  v("curvature_ratio", o.curvature_ratio, Bounds{1, 100},
+    "a corner is sharper than this many times the mean of its region");
+  v("max_angle_deg", o.max_angle_deg, Bounds{90, 180}, "wider angles are no corners, degrees");
+  v("end_points", o.end_points, Bounds{0, 1}, "ends of open curves are corners");
+  v("end_distance_px", o.end_distance_px, Bounds{0, 1000},
+    "... where farther than this from every other corner, px");
+}
+
+template <OptionsOf<LinkingOptions> O, class V>
+void visit_options(O& o, V&& v) {
+  v("gap_px", o.gap_px, Bounds{0, 32}, "ends nearer than this are linked, px (0: no linking)");
+}
+
+template <OptionsOf<ScoringOptions> O, class V>
+void visit_options(O& o, V&& v) {
+  v("keep_edges", o.keep_edges, Bounds{0, 1e9}, "ET: the best so many edges are kept (0: all)");
+  v("max_edgels", o.max_edgels, Bounds{0, 1e9}, "most edgels in the kept edges (0: any number)");
+  v("loop_line_ratio", o.loop_line_ratio, Bounds{1e-6, 1e6}, "Phi of a loop (a line has 1)");
+}
+
+template <OptionsOf<DetectorOptions> O, class V>
+void visit_options(O& o, V&& v) {
+  v("preset", o.preset, kPresets, "where the other options start from");
+  v("threads", o.threads, Bounds{0, 1024}, "threads (0: one per core)");
+  v.group("nuc", o.nuc);
+  v.group("scale", o.scale);
+  v.group("denoise", o.denoise);
+  v.group("canny", o.canny);
+  v.group("contours", o.contours);
+  v.group("corners", o.corners);
+  v.group("linking", o.linking);
+  v.group("scoring", o.scoring);
+}
+
+namespace detail {
+
+[[nodiscard]] std::string out_of_range(const std::string& name, double value, Bounds bounds);
+
+// Remembers the first option that is not finite or out of its range.
+class RangeChecker {
+ public:
+  explicit RangeChecker(std::string prefix) : prefix_(std::move(prefix)) {}
+
+  template <class T>
+  void operator()(std::string_view name, const T& value, Bounds bounds, std::string_view) {
+    const auto number = static_cast<double>(value);
+    if (message_.empty() && !(number >= bounds.min && number <= bounds.max)) {
+      message_ = out_of_range(prefix_ + std::string(name), number, bounds);
+    }
+  }
+  template <class E, class Names>
+    requires std::is_enum_v<E>
+  void operator()(std::string_view, const E&, const Names&, std::string_view) {}
+
+  template <class O>
+  void group(std::string_view name, const O& options) {
+    RangeChecker nested(prefix_ + std::string(name) + ".");
+    visit_options(options, nested);
+    if (message_.empty()) {
+      message_ = nested.message_;
+    }
+  }
+  [[nodiscard]] Status status() const {
+    return message_.empty() ? Status{} : failure(ErrorCode::kInvalidArgument, message_);
+  }
+
+ private:
+  std::string prefix_;
+  std::string message_;
+};
+
+}  // namespace detail
+
+// Fails on the first option out of range, naming it as `prefix` + name.
+template <class O>
+[[nodiscard]] Status check_ranges(const O& options, std::string_view prefix) {
+  detail::RangeChecker checker{std::string(prefix)};
+  visit_options(options, checker);
+  return checker.status();
+}
+
+}  // namespace thermedge

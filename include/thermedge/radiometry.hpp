@@ -1,0 +1,42 @@
+// Counts, degrees and the 8-bit view.
+#pragma once
+
+#include <cstdint>
+
+#include "thermedge/image.hpp"
+#include "thermedge/result.hpp"
+
+namespace thermedge {
+
+// Linear response of the paper's camera, degC per count (paper section 2.3).
+inline constexpr double kDegcPerCount = 0.01;
+
+struct ScaleOptions {
+  double gain = 0.5;  // grey levels per count, > 0; 0.5 = 0.02 degC a level (paper Algorithm 1)
+};
+
+// Median of the counts: the element of rank (n - 1) / 2, so it is a count that occurs.
+// An empty frame gives 0. O(pixels), no allocation after the first call on a thread.
+[[nodiscard]] int median_counts(ImageView<const std::uint16_t> frame);
+
+// Algorithm 1: G = clamp(round((R - M) * gain + 127), 0, 255) with M the median of the frame, so
+// one level is worth the same temperature in every frame. Halves round away from zero (the text
+// gives no rule; it also writes I for M). `levels` has the frame's size.
+// Errors: sizes differ; gain not finite or <= 0. Thread-safe.
+[[nodiscard]] Status scale_to_8bit(ImageView<const std::uint16_t> frame,
+                                   const ScaleOptions& options, ImageView<std::uint8_t> levels);
+
+struct CountRange {
+  int min = 0;  // counts
+  int max = 0;  // counts
+};
+[[nodiscard]] CountRange count_range(ImageView<const std::uint16_t> frame);
+
+// Range of a frame in degC (paper eq. 3): (max - min) * degc_per_count.
+[[nodiscard]] double range_degc(CountRange range, double degc_per_count = kDegcPerCount);
+
+// Degrees per grey level when the range is spread over 2^bits levels (paper eq. 4):
+// range_degc / (2^bits - 1).
+[[nodiscard]] double degc_per_level(double range_degc, int bits = 8);
+
+}  // namespace thermedge

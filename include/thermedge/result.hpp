@@ -1,0 +1,33 @@
+// How the library reports failure: a value or an Error, never an exception, never a print.
+#pragma once
+
+#include <string>
+#include <tl/expected.hpp>
+#include <utility>
+
+namespace thermedge {
+
+enum class ErrorCode {
+  kInvalidArgument,  // an option or argument is out of range
+  kIo,               // a file cannot be opened, read or written
+  kBadData,          // a file is damaged or not what it claims to be
+  kUnsupported,      // well-formed, but of a kind this library does not read
+  kLimitExceeded,    // larger than Limits allow
+  kOutOfMemory,
+};
+
+// `message` is one line that names the file or option, what is wrong, and what would be right.
+struct Error {
+  ErrorCode code = ErrorCode::kInvalidArgument;
+  std::string message;
+};
+
+template <class T>
+using Result = tl::expected<T, Error>;
+using Status = tl::expected<void, Error>;
+
+[[nodiscard]] inline tl::unexpected<Error> failure(ErrorCode code, std::string message) {
+  return tl::unexpected<Error>(Error{code, std::move(message)});
+}
+
+}  // namespace thermedge
