@@ -27,18 +27,19 @@ struct StageTimes {
 // What one frame gave. Everything is owned by the detector and stays valid until its next call.
 struct Detection {
   int width = 0, height = 0;
-  NoiseEstimate noise;                      // zero where the input was an edge map
-  double sigma_counts = 0;                  // the noise that the denoiser was told
+  NoiseEstimate noise;                   // zero where the input was an edge map
+  double sigma_counts = 0;               // the noise that the denoiser was told
+  double canny_low = 0, canny_high = 0;  // thresholds used
   EdgeSet edges;
   StageTimes ms;
   // Intermediate pictures and sets, for looking at each step; empty where a step did not run.
   std::vector<DeadPixel> dead_pixels;
-  ImageView<const std::uint16_t> corrected; // counts after nuc
-  ImageView<const std::uint8_t> levels;     // Algorithm 1
-  ImageView<const std::uint8_t> denoised;   // what Canny saw
-  ImageView<const std::uint8_t> edge_map;   // what the tracer saw: 255 edge, 0 none
-  const ContourSet* contours = nullptr;     // before linking
-  const LinkedContours* linked = nullptr;
+  ImageView<const std::uint16_t> corrected;  // counts after nuc
+  ImageView<const std::uint8_t> levels;      // Algorithm 1
+  ImageView<const std::uint8_t> denoised;    // what Canny saw
+  ImageView<const std::uint8_t> edge_map;    // what the tracer saw: 255 edge, 0 none
+  const ContourSet* contours = nullptr;      // before linking
+  const LinkedContours* linked = nullptr;    // after linking
 };
 
 // Detects edges frame by frame. Not thread-safe: one detector per thread; it spreads the work of a

@@ -1,5 +1,6 @@
-// The options of the whole detector, and every option with its name, range and meaning in one place:
-// the range checks, the TOML reader and writer, `--set` and `--dump-config` all walk these lists.
+// The options of the whole detector, and every option with its name, range and meaning in one
+// place: the range checks, the TOML reader and writer, `--set` and `--dump-config` all walk these
+// lists.
 #pragma once
 
 #include <array>
@@ -96,7 +97,8 @@ void visit_options(O& o, V&& v) {
   v("step_px", o.step_px, Bounds{1, 8}, "distance of reference blocks, px");
   v("search_radius_px", o.search_radius_px, Bounds{4, 32}, "reach of block matching, px");
   v("group_hard", o.group_hard, Bounds{1, 32}, "most blocks a group in stage 1, a power of two");
-  v("group_wiener", o.group_wiener, Bounds{1, 32}, "most blocks a group in stage 2, a power of two");
+  v("group_wiener", o.group_wiener, Bounds{1, 32},
+    "most blocks a group in stage 2, a power of two");
   v("lambda", o.lambda, Bounds{0.5, 10}, "hard threshold in units of the noise");
   v("kaiser_beta", o.kaiser_beta, Bounds{0, 10}, "shape of the aggregation window");
   v("wiener", o.wiener, Bounds{0, 1}, "run the second stage");
@@ -115,7 +117,8 @@ template <OptionsOf<CannyOptions> O, class V>
 void visit_options(O& o, V&& v) {
   v("high_threshold", o.high_threshold, Bounds{0, 1e6},
     "Sobel magnitude of a certain edge, grey levels (0: automatic)");
-  v("non_edge_share", o.non_edge_share, Bounds{0, 1}, "automatic: share of pixels below the high one");
+  v("non_edge_share", o.non_edge_share, Bounds{0, 1},
+    "automatic: share of pixels below the high one");
   v("low_over_high", o.low_over_high, Bounds{0, 1}, "low threshold as a share of the high one");
 }
 
@@ -183,7 +186,7 @@ class RangeChecker {
     }
   }
   template <class E, class Names>
-    requires std::is_enum_v<E>
+  requires std::is_enum_v<E>
   void operator()(std::string_view, const E&, const Names&, std::string_view) {}
 
   template <class O>

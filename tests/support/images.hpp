@@ -26,8 +26,8 @@ Image<T> noise_image(int width, int height, double mean, double sigma, unsigned 
     for (int x = 0; x < width; ++x) {
       double value = normal(random);
       if constexpr (std::is_integral_v<T>) {
-        value = std::clamp(std::round(value), 0.0,
-                           static_cast<double>(std::numeric_limits<T>::max()));
+        value =
+            std::clamp(std::round(value), 0.0, static_cast<double>(std::numeric_limits<T>::max()));
       }
       image(x, y) = static_cast<T>(value);
     }
@@ -100,8 +100,8 @@ inline std::filesystem::path shared_directory() {
 }
 
 // Skips the test, and says so, where a shared file or directory is absent.
-#define THERMEDGE_NEEDS_SHARED(part)                                              \
-  if (!std::filesystem::exists(thermedge::test::shared_directory() / (part)))     \
+#define THERMEDGE_NEEDS_SHARED(part)                                          \
+  if (!std::filesystem::exists(thermedge::test::shared_directory() / (part))) \
   GTEST_SKIP() << "needs " << (thermedge::test::shared_directory() / (part)).string()
 
 }  // namespace thermedge::test

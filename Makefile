@@ -1,0 +1,42 @@
+# The front door. Every target installs what it needs first (Debian 12, root or sudo).
+SHELL := /bin/bash
+.SHELLFLAGS := -eu -o pipefail -c
+
+.PHONY: help build demo test check bench clean
+
+help:
+	@echo "make build   the program at build/release/thermedge"
+	@echo "make demo    edges of simulated frames, pictures under demo/"
+	@echo "make test    all tests"
+	@echo "make check   format, static analysis, tests under sanitizers"
+	@echo "make bench   time of every stage on this machine"
+	@echo "make clean   remove what was built"
+
+build:
+	@scripts/install_packages.sh build
+	@cmake --preset release >build-configure.log 2>&1 || { cat build-configure.log; exit 1; }
+	@rm -f build-configure.log
+	@echo "== building (the first time takes some minutes)"
+	@cmake --build --preset release
+	@echo "The program: build/release/thermedge --help"
+
+demo: build
+	@scripts/demo.sh
+
+test: build
+	@echo "== testing"
+	@ctest --preset release -j "$$(nproc)"
+	@echo "Details: build/release/Testing/Temporary/LastTest.log"
+
+check: build
+	@scripts/install_packages.sh check
+	@scripts/check.sh
+
+bench: build
+	@scripts/install_packages.sh bench
+	@cmake --preset release -DTHERMEDGE_BUILD_BENCH=ON >/dev/null
+	@cmake --build --preset release --target stages_bench
+	@build/release/bench/stages_bench
+
+clean:
+	rm -rf build demo

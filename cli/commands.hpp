@@ -1,0 +1,13 @@
+// One function per subcommand: adds it to the program; `exit_code` is set when it runs.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace thermedge::cli {
+
+void add_detect(CLI::App& program, int& exit_code);
+void add_trace(CLI::App& program, int& exit_code);
+void add_scale(CLI::App& program, int& exit_code);
+void add_denoise(CLI::App& program, int& exit_code);
+
+}  // namespace thermedge::cli

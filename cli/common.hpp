@@ -1,0 +1,72 @@
+// Options that several subcommands share.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "report.hpp"
+#include "thermedge/io/source.hpp"
+#include "thermedge/options.hpp"
+
+namespace thermedge::cli {
+
+// INPUT..., -o, --raw-size, --raw-format, --threads, --simd, --quiet, --json-log.
+struct CommonOptions {
+  std::vector<std::string> inputs;
+  std::string output;
+  std::string raw_size;
+  std::string raw_format = "gray16le";
+  std::string simd = "auto";
+  int threads = 0;
+  bool quiet = false;
+  bool json_log = false;
+
+  void add_to(CLI::App& app);
+  [[nodiscard]] Report report() const { return {quiet, json_log}; }
+  // Checks what the parser can't and selects the SIMD target. Failures are usage errors.
+  [[nodiscard]] Result<io::SourceOptions> prepare() const;
+};
+
+// --config, --set, --dump-config.
+struct ConfigOptions {
+  std::string file;
+  std::vector<std::string> settings;
+  bool dump = false;
+
+  void add_to(CLI::App& app);
+  // Preset, then the file, then --set, each over the one before.
+  [[nodiscard]] Status apply(DetectorOptions& options) const;
+};
+
+// --sigma auto|COUNTS: 0 stands for auto.
+[[nodiscard]] Result<double> parse_sigma(const std::string& text);
+
+// Calls `handle(frame)` for each frame of the inputs; an error (of reading or handling) is reported
+// and the next frame follows. Returns the exit code.
+[[nodiscard]] int for_each_frame(const CommonOptions& common, const io::SourceOptions& source,
+                                 Report& report,
+                                 const std::function<Status(const io::Frame&)>& handle);
+
+// Where results of several frames go: DIR/<kind>/<stem><ending>, or DIR/<stem><ending> where kind
+// is empty. Makes the directories; stems that occur twice in a run get "_2", "_3" ... so that no
+// result of the run is lost.
+class OutputDirectory {
+ public:
+  explicit OutputDirectory(std::string directory) : directory_(std::move(directory)) {}
+  // Once per frame, before path().
+  void begin_frame(const std::string& stem);
+  [[nodiscard]] Result<std::string> path(const std::string& kind, const std::string& ending);
+
+ private:
+  std::string directory_;
+  std::vector<std::string> used_;  // sorted
+  std::string stem_;
+};
+
+// "--write a,b" split at the commas.
+[[nodiscard]] std::vector<std::string> split_list(const std::string& list);
+
+}  // namespace thermedge::cli

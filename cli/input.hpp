@@ -1,0 +1,18 @@
+// The INPUT arguments of the command line as one sequence of frames.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "thermedge/io/source.hpp"
+
+namespace thermedge::cli {
+
+// Opens files, directories, globs, "-" and "sim:NAME?...", one after the other, in the order given.
+// An input that cannot be opened is one error of next(); the following inputs still run.
+[[nodiscard]] std::unique_ptr<io::FrameSource> open_inputs(const std::vector<std::string>& inputs,
+                                                           const io::SourceOptions& options);
+
+}  // namespace thermedge::cli

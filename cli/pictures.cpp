@@ -1,0 +1,188 @@
+// `scale` and `denoise`: a picture in, a picture out.
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <functional>
+#include <memory>
+
+#include "commands.hpp"
+#include "common.hpp"
+#include "thermedge/denoise.hpp"
+#include "thermedge/io/config.hpp"
+#include "thermedge/io/write.hpp"
+#include "thermedge/noise.hpp"
+#include "thermedge/nuc.hpp"
+#include "thermedge/radiometry.hpp"
+
+namespace thermedge::cli {
+namespace {
+
+constexpr std::string_view kPictureEndings[] = {".png", ".tif", ".tiff", ".pgm", ".npy", ".raw"};
+
+// The file of each result: OUT itself where it has a picture's ending, else OUT/<stem>.png.
+class PictureOutput {
+ public:
+  explicit PictureOutput(const std::string& output) : output_(output), directory_(output) {
+    const std::string ending = std::filesystem::path(output).extension().string();
+    one_file_ = std::find(std::begin(kPictureEndings), std::end(kPictureEndings), ending) !=
+                std::end(kPictureEndings);
+  }
+
+  Result<std::string> path(const std::string& stem) {
+    if (!one_file_) {
+      directory_.begin_frame(stem);
+      return directory_.path("", ".png");
+    }
+    if (++written_ > 1) {
+      return failure(ErrorCode::kInvalidArgument,
+                     output_ + " holds the first frame; for several give -o DIR");
+    }
+    return output_;
+  }
+
+ private:
+  std::string output_;
+  OutputDirectory directory_;
+  bool one_file_ = false;
+  int written_ = 0;
+};
+
+int usage_error(Report& report, const std::string& message) {
+  report.error(message);
+  return kBadUsage;
+}
+
+struct ScaleCommand {
+  CommonOptions common;
+  ScaleOptions scale;
+
+  int run() const {
+    Report report = common.report();
+    const auto source = common.prepare();
+    if (!source) {
+      return usage_error(report, source.error().message);
+    }
+    PictureOutput output(common.output);
+    Image<std::uint8_t> levels;
+    return for_each_frame(common, *source, report, [&](const io::Frame& frame) -> Status {
+      levels.resize(frame.counts.width(), frame.counts.height());
+      return scale_to_8bit(frame.counts, scale, levels)
+          .and_then([&] { return output.path(frame.stem); })
+          .and_then([&](const std::string& path) {
+            return io::write_picture(path, ImageView<const std::uint8_t>(levels.view()));
+          });
+    });
+  }
+};
+
+// Dead pixels, noise, denoiser: counts in, counts out.
+class CountsDenoiser {
+ public:
+  CountsDenoiser(const DetectorOptions& options, int threads)
+      : options_(options), runner_(make_runner(threads)), denoiser_(options.denoise) {}
+
+  Result<ImageView<const std::uint16_t>> run(ImageView<const std::uint16_t> frame) {
+    counts_.resize(frame.width(), frame.height());
+    working_.resize(frame.width(), frame.height());
+    copy_pixels(frame, counts_.view());
+    const double measured = estimator_.measure(frame).sigma_counts;
+    if (options_.nuc.dead_pixels) {
+      correct_dead_pixels(counts_, measured, options_.nuc, dead_);
+    }
+    copy_pixels(counts_.view(), working_.view());
+    const double told = options_.denoise.sigma_counts;
+    return denoiser_.run(working_, told > 0 ? told : measured, working_, *runner_).map([&] {
+      for (int y = 0; y < frame.height(); ++y) {
+        std::transform(
+            working_.row(y), working_.row(y) + frame.width(), counts_.row(y), [](float value) {
+              return static_cast<std::uint16_t>(std::clamp(value, 0.0F, 65535.0F) + 0.5F);
+            });
+      }
+      return ImageView<const std::uint16_t>(counts_.view());
+    });
+  }
+
+ private:
+  DetectorOptions options_;
+  std::unique_ptr<Runner> runner_;
+  NoiseEstimator estimator_;
+  Denoiser denoiser_;
+  Image<std::uint16_t> counts_;
+  Image<float> working_;
+  std::vector<DeadPixel> dead_;
+};
+
+struct DenoiseCommand {
+  CommonOptions common;
+  ConfigOptions config;
+  std::optional<std::string> method;
+  std::string sigma = "auto";
+
+  Status options(DetectorOptions& options) const {
+    if (Status status = config.apply(options); !status) {
+      return status;
+    }
+    if (method) {
+      if (Status status = io::apply_setting("denoise.method=" + *method, options); !status) {
+        return status;
+      }
+    }
+    return parse_sigma(sigma).map([&](double counts) {
+      options.denoise.sigma_counts = counts > 0 ? counts : options.denoise.sigma_counts;
+    });
+  }
+
+  int run() const {
+    Report report = common.report();
+    DetectorOptions chosen;
+    if (const Status status = options(chosen); !status) {
+      return usage_error(report, status.error().message);
+    }
+    if (config.dump) {
+      fmt::print("{}", io::dump_config(chosen));
+      return kGood;
+    }
+    const auto source = common.prepare();
+    if (!source) {
+      return usage_error(report, source.error().message);
+    }
+    PictureOutput output(common.output);
+    CountsDenoiser denoiser(chosen, common.threads);
+    return for_each_frame(common, *source, report, [&](const io::Frame& frame) -> Status {
+      return denoiser.run(frame.counts).and_then([&](ImageView<const std::uint16_t> counts) {
+        return output.path(frame.stem).and_then([&](const std::string& path) {
+          return io::write_picture(path, counts);
+        });
+      });
+    });
+  }
+};
+
+}  // namespace
+
+void add_scale(CLI::App& program, int& exit_code) {
+  CLI::App& app =
+      *program.add_subcommand("scale", "16 bit to 8 bit at constant degrees per grey level");
+  auto command = std::make_shared<ScaleCommand>();
+  command->common.add_to(app);
+  app.get_option("-o")->required();
+  app.add_option("--gain", command->scale.gain, "grey levels per count")
+      ->check(CLI::Range(1e-6, 1000.0))
+      ->capture_default_str();
+  app.callback([command, &exit_code] { exit_code = command->run(); });
+}
+
+void add_denoise(CLI::App& program, int& exit_code) {
+  CLI::App& app = *program.add_subcommand("denoise", "frames with less noise, in counts");
+  auto command = std::make_shared<DenoiseCommand>();
+  command->common.add_to(app);
+  command->config.add_to(app);
+  app.get_option("-o")->required();
+  app.add_option("--method", command->method, "denoiser (default bm3d)")
+      ->check(CLI::IsMember({"none", "gaussian", "nlm", "bm3d"}));
+  app.add_option("--sigma", command->sigma, "noise: auto or counts")->capture_default_str();
+  app.callback([command, &exit_code] { exit_code = command->run(); });
+}
+
+}  // namespace thermedge::cli

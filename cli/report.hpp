@@ -1,0 +1,40 @@
+// What the program says while it works: errors, notes and progress, on standard error.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <string_view>
+
+namespace thermedge::cli {
+
+// Exit codes of the program.
+inline constexpr int kGood = 0;
+inline constexpr int kBadInput = 1;
+inline constexpr int kBadUsage = 2;
+
+class Report {
+ public:
+  Report(bool quiet, bool json_log);
+
+  // One line each; errors are counted. Notes are left out by --quiet.
+  void error(std::string_view message);
+  void note(std::string_view message);
+
+  // A progress bar on a terminal, once the work has lasted a second. `expected` 0: not known.
+  void progress(std::size_t done, std::size_t expected);
+
+  [[nodiscard]] int exit_code() const { return errors_ > 0 ? kBadInput : kGood; }
+
+ private:
+  void line(std::string_view level, std::string_view message);
+  void clear_bar();
+
+  bool quiet_;
+  bool json_;
+  bool terminal_;
+  bool bar_shown_ = false;
+  std::size_t errors_ = 0;
+  std::chrono::steady_clock::time_point start_;
+};
+
+}  // namespace thermedge::cli

@@ -1,0 +1,148 @@
+#include "result_writer.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <string_view>
+
+#include "thermedge/io/overlay.hpp"
+
+namespace thermedge::cli {
+namespace {
+
+struct Kind {
+  std::string_view name;
+  std::string_view ending;
+};
+constexpr std::array kKinds = {
+    Kind{"mask", ".png"}, Kind{"strength", ".png"}, Kind{"labels", ".png"},  Kind{"json", ".json"},
+    Kind{"svg", ".svg"},  Kind{"overlay", ".png"},  Kind{"distance", ".png"}};
+
+// The distance picture holds 1/256 px in 16 bits, so it reaches 255 px.
+constexpr float kDistanceUnitsPerPx = 256;
+constexpr float kMaxDistancePx = 255;
+
+const Kind* find_kind(std::string_view name) {
+  const auto* found =
+      std::find_if(kKinds.begin(), kKinds.end(), [&](const Kind& k) { return k.name == name; });
+  return found == kKinds.end() ? nullptr : found;
+}
+
+// What `-o x.ENDING` means for a single frame; empty where the ending means nothing.
+std::string_view kind_of_file(const std::string& output) {
+  const std::string ending = std::filesystem::path(output).extension().string();
+  return ending == ".png" ? "mask" : ending == ".json" ? "json" : ending == ".svg" ? "svg" : "";
+}
+
+std::string summary(const Detection& detection, const io::ResultLabel& label) {
+  std::size_t edgels = 0;
+  for (const Edge& edge : detection.edges.kept_edges()) {
+    edgels += edge.edgels.count;
+  }
+  return fmt::format("{}: {}x{}, sigma {:.2f} counts, {} of {} edges kept, {} edgels, {:.1f} ms",
+                     label.source, detection.width, detection.height, detection.sigma_counts,
+                     detection.edges.kept, detection.edges.edges.size(), edgels,
+                     detection.ms.total());
+}
+
+}  // namespace
+
+ResultWriter::ResultWriter(Mode mode, std::string output, std::vector<std::string> kinds)
+    : mode_(mode), output_(std::move(output)), kinds_(std::move(kinds)), directory_(output_) {}
+
+Result<ResultWriter> ResultWriter::create(const std::string& output, const std::string& kinds) {
+  std::vector<std::string> list = split_list(kinds);
+  for (const std::string& kind : list) {
+    if (find_kind(kind) == nullptr) {
+      return failure(ErrorCode::kInvalidArgument,
+                     fmt::format("--write {}: should be of mask, strength, labels, json, svg, "
+                                 "overlay, distance",
+                                 kind));
+    }
+  }
+  if (output.empty() || output == "-") {
+    if (!list.empty()) {
+      return failure(ErrorCode::kInvalidArgument, "--write needs a directory: -o DIR");
+    }
+    return ResultWriter(output.empty() ? Mode::kSummary : Mode::kJsonLines, output, {});
+  }
+  if (list.empty() && !kind_of_file(output).empty()) {
+    return ResultWriter(Mode::kOneFile, output, {std::string(kind_of_file(output))});
+  }
+  if (list.empty()) {
+    list = {"mask"};
+  }
+  return ResultWriter(Mode::kDirectory, output, std::move(list));
+}
+
+Status ResultWriter::write(const Detection& detection, const io::ResultLabel& label,
+                           const std::string& stem) {
+  ++written_;
+  switch (mode_) {
+    case Mode::kSummary:
+      fmt::print("{}\n", summary(detection, label));
+      return {};
+    case Mode::kJsonLines:
+      fmt::print("{}", io::edges_to_json(detection, label));
+      return {};
+    case Mode::kOneFile:
+      if (written_ > 1) {
+        return failure(ErrorCode::kInvalidArgument,
+                       output_ + " holds the first frame; for several give -o DIR and --write");
+      }
+      return write_kind(kinds_.front(), output_, detection, label);
+    case Mode::kDirectory:
+      break;
+  }
+  directory_.begin_frame(stem);
+  for (const std::string& kind : kinds_) {
+    const Status status = directory_.path(kind, std::string(find_kind(kind)->ending))
+                              .and_then([&](const std::string& path) {
+                                return write_kind(kind, path, detection, label);
+                              });
+    if (!status) {
+      return status;
+    }
+  }
+  return {};
+}
+
+Status ResultWriter::write_kind(const std::string& kind, const std::string& path,
+                                const Detection& detection, const io::ResultLabel& label) {
+  const int width = detection.width;
+  const int height = detection.height;
+  if (kind == "json") {
+    return io::write_file(path, io::edges_to_json(detection, label));
+  }
+  if (kind == "svg") {
+    return io::write_file(path, io::edges_to_svg(detection, label));
+  }
+  if (kind == "overlay") {
+    io::draw_overlay(detection, colour_);
+    return io::write_picture(path, ImageView<const io::Rgb>(colour_.view()));
+  }
+  if (kind == "mask" || kind == "strength") {
+    grey8_.resize(width, height);
+    kind == "mask" ? draw_mask(detection.edges, grey8_) : draw_strength(detection.edges, grey8_);
+    return io::write_picture(path, ImageView<const std::uint8_t>(grey8_.view()));
+  }
+  grey16_.resize(width, height);
+  if (kind == "labels") {
+    draw_labels(detection.edges, grey16_);
+  } else {
+    distance_transform_.run(detection.edges, width, height, kMaxDistancePx, distance_);
+    for (int y = 0; y < height; ++y) {
+      const float* distance = distance_.distance_px.row(y);
+      std::transform(distance, distance + width, grey16_.row(y), [](float px) {
+        return static_cast<std::uint16_t>(std::lround(px * kDistanceUnitsPerPx));
+      });
+    }
+  }
+  return io::write_picture(path, ImageView<const std::uint16_t>(grey16_.view()));
+}
+
+}  // namespace thermedge::cli

@@ -1,0 +1,24 @@
+#!/usr/bin/env bash
+# Format, static analysis, and the tests under AddressSanitizer + UBSan and ThreadSanitizer.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+echo "== format"
+git ls-files '*.cpp' '*.hpp' | xargs clang-format --dry-run --Werror
+
+echo "== static analysis"
+cmake --preset release >/dev/null
+git ls-files 'src/*.cpp' 'sim/*.cpp' 'cli/*.cpp' |
+  xargs -P "$(nproc)" -n 2 clang-tidy --quiet -p build/release --warnings-as-errors='*' 2>/dev/null
+
+export UBSAN_OPTIONS=print_stacktrace=1
+for preset in asan tsan; do
+  echo "== tests under $preset"
+  cmake --preset "$preset" >/dev/null
+  cmake --build --preset "$preset"
+  ctest --preset "$preset" -j "$(nproc)" --quiet || {
+    ctest --preset "$preset" --rerun-failed --output-on-failure
+    exit 1
+  }
+done
+echo "== all checks passed"

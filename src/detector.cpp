@@ -1,0 +1,246 @@
+#include "thermedge/detector.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <new>
+#include <string>
+#include <utility>
+
+#include "thermedge/measure.hpp"
+
+namespace thermedge {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// Adds the time from its making to its end to a stage.
+class Stopwatch {
+ public:
+  explicit Stopwatch(double& stage_ms) : stage_ms_(stage_ms), start_(Clock::now()) {}
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+  ~Stopwatch() {
+    stage_ms_ += std::chrono::duration<double, std::milli>(Clock::now() - start_).count();
+  }
+
+ private:
+  double& stage_ms_;
+  Clock::time_point start_;
+};
+
+std::uint8_t to_level(float value) {
+  return static_cast<std::uint8_t>(std::min(std::max(value, 0.0F), 255.0F) + 0.5F);
+}
+
+}  // namespace
+
+double StageTimes::total() const {
+  return noise + nuc + scale + denoise + canny + contours + corners + linking + scoring + measure;
+}
+
+struct Detector::Impl {
+  explicit Impl(const DetectorOptions& chosen)
+      : options(chosen),
+        runner(make_runner(chosen.threads)),
+        denoiser(chosen.denoise),
+        canny(chosen.canny),
+        tracer(chosen.contours),
+        corner_finder(chosen.corners),
+        linker(chosen.linking),
+        scorer(chosen.scoring) {}
+
+  Status detect(ImageView<const std::uint16_t> frame, int bits);
+  Status trace(ImageView<const std::uint8_t> edge_map);
+
+  void begin(int width, int height);
+  void correct(ImageView<const std::uint16_t> frame);
+  Status scale(int bits);
+  Status denoise(int bits);
+  Status find_edge_pixels();
+  Status connect();
+
+  DetectorOptions options;
+  std::unique_ptr<Runner> runner;
+  NoiseEstimator noise_estimator;
+  Denoiser denoiser;
+  Canny canny;
+  ContourTracer tracer;
+  CornerFinder corner_finder;
+  Linker linker;
+  Scorer scorer;
+  EdgeMeter meter;
+
+  Image<std::uint16_t> corrected;
+  Image<std::uint8_t> levels, denoised, edge_map;
+  Image<float> working;
+  ContourSet contours;
+  LinkedContours linked;
+  CornerSet corners;
+  Detection result;
+};
+
+// The paper's Algorithm 6, step by step.
+Status Detector::Impl::detect(ImageView<const std::uint16_t> frame, int bits) {
+  begin(frame.width(), frame.height());
+  correct(frame);
+  return scale(bits)
+      .and_then([&] { return denoise(bits); })
+      .and_then([&] { return find_edge_pixels(); })
+      .and_then([&] { return connect(); })
+      .map([&] {
+        const Stopwatch watch(result.ms.measure);
+        meter.run(corrected, result.noise.sigma_counts, result.edges);
+      });
+}
+
+Status Detector::Impl::trace(ImageView<const std::uint8_t> map) {
+  begin(map.width(), map.height());
+  edge_map.resize(map.width(), map.height());
+  for (int y = 0; y < map.height(); ++y) {
+    std::transform(map.row(y), map.row(y) + map.width(), edge_map.row(y),
+                   [](std::uint8_t value) { return value != 0 ? std::uint8_t{255} : value; });
+  }
+  result.edge_map = edge_map;
+  return connect().map([&] { set_normals_from_shape(result.edges); });
+}
+
+void Detector::Impl::begin(int width, int height) {
+  result.width = width;
+  result.height = height;
+  result.noise = {};
+  result.sigma_counts = 0;
+  result.ms = {};
+  result.dead_pixels.clear();
+  result.corrected = {};
+  result.levels = {};
+  result.denoised = {};
+  result.edge_map = {};
+  result.canny_low = 0;
+  result.canny_high = 0;
+  result.contours = &contours;
+  result.linked = &linked;
+}
+
+// Noise and dead pixels (before the paper's first step).
+void Detector::Impl::correct(ImageView<const std::uint16_t> frame) {
+  {
+    const Stopwatch watch(result.ms.noise);
+    result.noise = noise_estimator.measure(frame);
+  }
+  const Stopwatch watch(result.ms.nuc);
+  corrected.resize(frame.width(), frame.height());
+  copy_pixels(frame, corrected.view());
+  if (options.nuc.dead_pixels) {
+    correct_dead_pixels(corrected, result.noise.sigma_counts, options.nuc, result.dead_pixels);
+  }
+  result.corrected = corrected;
+}
+
+// Algorithm 1. 8-bit pictures are grey levels already.
+Status Detector::Impl::scale(int bits) {
+  const Stopwatch watch(result.ms.scale);
+  levels.resize(result.width, result.height);
+  result.levels = levels;
+  if (bits == 8) {
+    copy_pixels(result.corrected, levels.view());
+    return {};
+  }
+  return scale_to_8bit(corrected, options.scale, levels);
+}
+
+// Section 3: the noise in grey levels is the noise in counts times the gain.
+Status Detector::Impl::denoise(int bits) {
+  const Stopwatch watch(result.ms.denoise);
+  result.sigma_counts =
+      options.denoise.sigma_counts > 0 ? options.denoise.sigma_counts : result.noise.sigma_counts;
+  const double levels_per_count = bits == 8 ? 1.0 : options.scale.gain;
+  working.resize(result.width, result.height);
+  denoised.resize(result.width, result.height);
+  copy_pixels(result.levels, working.view());
+  return denoiser.run(working, result.sigma_counts * levels_per_count, working, *runner).map([&] {
+    for (int y = 0; y < result.height; ++y) {
+      std::transform(working.row(y), working.row(y) + result.width, denoised.row(y), to_level);
+    }
+    result.denoised = denoised;
+  });
+}
+
+// Algorithm 2.
+Status Detector::Impl::find_edge_pixels() {
+  const Stopwatch watch(result.ms.canny);
+  copy_pixels(result.denoised, working.view());
+  return canny.run(working, *runner).map([&](const CannyResult& found) {
+    result.edge_map = found.edges;
+    result.canny_low = found.low;
+    result.canny_high = found.high;
+  });
+}
+
+// Algorithms 3 to 6: contours, links, corners, scores. Corners are found on the linked curves;
+// those of the curves before linking would be thrown away unused.
+Status Detector::Impl::connect() {
+  const auto timed = [](double& stage_ms, auto&& stage) {
+    const Stopwatch watch(stage_ms);
+    return stage();
+  };
+  StageTimes& ms = result.ms;
+  return timed(ms.contours, [&] { return tracer.run(result.edge_map, contours); })
+      .and_then([&] {
+        return timed(ms.linking,
+                     [&] { return linker.run(contours, result.width, result.height, linked); });
+      })
+      .and_then([&] {
+        return timed(ms.corners, [&] { return corner_finder.run(linked.contours, corners); });
+      })
+      .and_then([&] {
+        return timed(ms.scoring, [&] {
+          return scorer.run(linked, corners, result.width, result.height, result.edges);
+        });
+      });
+}
+
+Result<Detector> Detector::create(const DetectorOptions& options) {
+  if (Status status = check_options(options); !status) {
+    return tl::unexpected(status.error());
+  }
+  try {
+    return Detector(std::make_unique<Impl>(options));
+  } catch (const std::bad_alloc&) {
+    return failure(ErrorCode::kOutOfMemory, "detector: out of memory");
+  }
+}
+
+Detector::Detector(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+Detector::Detector(Detector&&) noexcept = default;
+Detector& Detector::operator=(Detector&&) noexcept = default;
+Detector::~Detector() = default;
+
+const DetectorOptions& Detector::options() const { return impl_->options; }
+
+namespace {
+
+template <class Run>
+Result<const Detection*> guarded(const Detection& result, bool empty, Run&& run) {
+  if (empty) {
+    return failure(ErrorCode::kInvalidArgument, "frame: it has no pixels");
+  }
+  try {
+    return run().map([&] { return &result; });
+  } catch (const std::bad_alloc&) {
+    return failure(ErrorCode::kOutOfMemory, "frame of " + std::to_string(result.width) + "x" +
+                                                std::to_string(result.height) +
+                                                " pixels: out of memory");
+  }
+}
+
+}  // namespace
+
+Result<const Detection*> Detector::detect(ImageView<const std::uint16_t> frame, int bits) {
+  return guarded(impl_->result, frame.empty(), [&] { return impl_->detect(frame, bits); });
+}
+
+Result<const Detection*> Detector::trace(ImageView<const std::uint8_t> edge_map) {
+  return guarded(impl_->result, edge_map.empty(), [&] { return impl_->trace(edge_map); });
+}
+
+}  // namespace thermedge

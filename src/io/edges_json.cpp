@@ -1,0 +1,77 @@
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "thermedge/io/edges_file.hpp"
+
+namespace thermedge::io {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// Short decimals: 1/1000 is far below what any value here is known to.
+Json rounded(double value) {
+  return std::isfinite(value) ? Json(std::round(value * 1000) / 1000) : Json(nullptr);
+}
+
+// Scores span many decades, so digits after the point would not do.
+Json exact(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+Json to_json(const EdgeSet& set, const Edge& edge) {
+  Json points = Json::array();
+  for (std::uint32_t i = edge.edgels.first; i < edge.edgels.first + edge.edgels.count; ++i) {
+    points.push_back({rounded(set.edgels.x[i]), rounded(set.edgels.y[i])});
+  }
+  return {{"id", edge.id},
+          {"rank", edge.rank},
+          {"score", exact(edge.score)},
+          {"es", exact(edge.es)},
+          {"z", rounded(edge.z)},
+          {"log10_nfa", rounded(edge.log10_nfa)},
+          {"closed", edge.closed},
+          {"length_px", rounded(edge.length_px)},
+          {"contrast_counts", rounded(edge.contrast_counts)},
+          {"corners", set.corners_of(edge)},
+          {"connected", set.connections_of(edge)},
+          {"track", edge.track >= 0 ? Json(edge.track) : Json(nullptr)},
+          {"points", std::move(points)}};
+}
+
+Json to_json(const StageTimes& ms) {
+  return {{"noise", rounded(ms.noise)},     {"nuc", rounded(ms.nuc)},
+          {"scale", rounded(ms.scale)},     {"denoise", rounded(ms.denoise)},
+          {"canny", rounded(ms.canny)},     {"contours", rounded(ms.contours)},
+          {"linking", rounded(ms.linking)}, {"corners", rounded(ms.corners)},
+          {"scoring", rounded(ms.scoring)}, {"measure", rounded(ms.measure)},
+          {"total", rounded(ms.total())}};
+}
+
+}  // namespace
+
+std::string edges_to_json(const Detection& detection, const ResultLabel& label) {
+  const EdgeSet& set = detection.edges;
+  Json edges = Json::array();
+  for (const Edge& edge : set.kept_edges()) {
+    edges.push_back(to_json(set, edge));
+  }
+  Json junctions = Json::array();
+  for (const Junction& junction : set.junctions) {
+    junctions.push_back({junction.at.x, junction.at.y});
+  }
+  const Json document = {{"source", label.source},
+                         {"width", detection.width},
+                         {"height", detection.height},
+                         {"preset", label.preset},
+                         {"sigma_counts", rounded(detection.sigma_counts)},
+                         {"edges", std::move(edges)},
+                         {"junctions", std::move(junctions)},
+                         {"stats",
+                          {{"ms", to_json(detection.ms)},
+                           {"edges_found", set.edges.size()},
+                           {"dead_pixels", detection.dead_pixels.size()},
+                           {"canny_low", rounded(detection.canny_low)},
+                           {"canny_high", rounded(detection.canny_high)}}}};
+  // A name that is not UTF-8 is shown with replacement characters rather than refused.
+  return document.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace thermedge::io

@@ -1,0 +1,170 @@
+#include "thermedge/io/overlay.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+namespace thermedge::io {
+namespace {
+
+constexpr int kScale = 2;
+constexpr int kLeastRangeCounts = 16;
+
+struct Stretch {
+  int low = 0;
+  int high = 0;
+};
+
+Stretch percentile_stretch(ImageView<const std::uint16_t> counts) {
+  std::vector<std::size_t> histogram(65536, 0);
+  for (int y = 0; y < counts.height(); ++y) {
+    for (int x = 0; x < counts.width(); ++x) {
+      ++histogram[counts(x, y)];
+    }
+  }
+  const auto percentile = [&](double share) {
+    const auto wanted = static_cast<std::size_t>(share * static_cast<double>(counts.size() - 1));
+    std::size_t below = 0;
+    int value = 0;
+    while ((below += histogram[static_cast<std::size_t>(value)]) <= wanted) {
+      ++value;
+    }
+    return value;
+  };
+  Stretch stretch{percentile(0.005), percentile(0.995)};
+  const int missing = kLeastRangeCounts - (stretch.high - stretch.low);
+  if (missing > 0) {
+    stretch.low -= missing / 2;
+    stretch.high = stretch.low + kLeastRangeCounts;
+  }
+  return stretch;
+}
+
+std::uint8_t blend(int from, int to, double share) {
+  return static_cast<std::uint8_t>(std::lround(from + (to - from) * share));
+}
+
+// Draws on the enlarged picture in coordinates of the frame; what lies outside is left out.
+class Canvas {
+ public:
+  explicit Canvas(ImageView<Rgb> picture) : picture_(picture) {}
+
+  void dot(int x, int y, Rgb colour) {
+    if (picture_.contains(x, y)) {
+      picture_(x, y) = colour;
+    }
+  }
+
+  void line(float x0, float y0, float x1, float y1, Rgb colour) {
+    const float ax = enlarged(x0), ay = enlarged(y0), bx = enlarged(x1), by = enlarged(y1);
+    const int steps =
+        std::max(1, static_cast<int>(std::ceil(std::max(std::abs(bx - ax), std::abs(by - ay)))));
+    for (int i = 0; i <= steps; ++i) {
+      const float t = static_cast<float>(i) / static_cast<float>(steps);
+      dot(static_cast<int>(std::lround(ax + (bx - ax) * t)),
+          static_cast<int>(std::lround(ay + (by - ay) * t)), colour);
+    }
+  }
+
+  void square(float x, float y, Rgb colour) {
+    const int cx = static_cast<int>(std::lround(enlarged(x)));
+    const int cy = static_cast<int>(std::lround(enlarged(y)));
+    for (int dy = -1; dy <= 1; ++dy) {
+      for (int dx = -1; dx <= 1; ++dx) {
+        dot(cx + dx, cy + dy, colour);
+      }
+    }
+  }
+
+  void ring(float x, float y, Rgb colour) {
+    const int cx = static_cast<int>(std::lround(enlarged(x)));
+    const int cy = static_cast<int>(std::lround(enlarged(y)));
+    for (int dy = -3; dy <= 3; ++dy) {
+      for (int dx = -3; dx <= 3; ++dx) {
+        const int squared = dx * dx + dy * dy;
+        if (squared >= 7 && squared <= 11) {
+          dot(cx + dx, cy + dy, colour);
+        }
+      }
+    }
+  }
+
+ private:
+  // The centre of pixel x lies in the middle of its enlarged square.
+  static float enlarged(float position) {
+    return (position + 0.5F) * static_cast<float>(kScale) - 0.5F;
+  }
+  ImageView<Rgb> picture_;
+};
+
+void draw_background(const Detection& detection, ImageView<Rgb> picture) {
+  Image<std::uint8_t> view(detection.width, detection.height);
+  if (!detection.corrected.empty()) {
+    draw_view(detection.corrected, view);
+  } else {
+    fill_pixels(view.view(), std::uint8_t{0});
+  }
+  for (int y = 0; y < picture.height(); ++y) {
+    for (int x = 0; x < picture.width(); ++x) {
+      const auto grey = blend(20, 200, view(x / kScale, y / kScale) / 255.0);
+      picture(x, y) = {grey, grey, grey};
+    }
+  }
+}
+
+void draw_edge(const EdgeSet& set, const Edge& edge, Rgb colour, Canvas& canvas) {
+  const Edgels& e = set.edgels;
+  const std::uint32_t first = edge.edgels.first;
+  const std::uint32_t last = first + edge.edgels.count - 1;
+  for (std::uint32_t i = first; i <= last; ++i) {
+    const std::uint32_t next = i < last ? i + 1 : (edge.closed ? first : last);
+    canvas.line(e.x[i], e.y[i], e.x[next], e.y[next], colour);
+  }
+  for (const std::uint32_t corner : set.corners_of(edge)) {
+    canvas.square(e.x[first + corner], e.y[first + corner], {255, 255, 255});
+  }
+}
+
+}  // namespace
+
+void draw_view(ImageView<const std::uint16_t> counts, ImageView<std::uint8_t> view) {
+  const Stretch stretch = percentile_stretch(counts);
+  const double gain = 255.0 / (stretch.high - stretch.low);
+  for (int y = 0; y < counts.height(); ++y) {
+    std::transform(counts.row(y), counts.row(y) + counts.width(), view.row(y),
+                   [&](std::uint16_t count) {
+                     return static_cast<std::uint8_t>(
+                         std::clamp((count - stretch.low) * gain + 0.5, 0.0, 255.0));
+                   });
+  }
+}
+
+Rgb rank_colour(double share) {
+  static constexpr std::array<Rgb, 4> kStops = {Rgb{252, 236, 80}, Rgb{250, 150, 50},
+                                                Rgb{220, 70, 120}, Rgb{140, 60, 190}};
+  const double position = std::clamp(share, 0.0, 1.0) * (kStops.size() - 1);
+  const auto stop = std::min(static_cast<std::size_t>(position), kStops.size() - 2);
+  const double within = position - static_cast<double>(stop);
+  const Rgb a = kStops[stop];
+  const Rgb b = kStops[stop + 1];
+  return {blend(a.r, b.r, within), blend(a.g, b.g, within), blend(a.b, b.b, within)};
+}
+
+void draw_overlay(const Detection& detection, Image<Rgb>& overlay) {
+  overlay.resize(detection.width * kScale, detection.height * kScale);
+  draw_background(detection, overlay);
+  Canvas canvas(overlay);
+  const EdgeSet& set = detection.edges;
+  const double last = std::max<double>(1.0, static_cast<double>(set.kept) - 1);
+  // Best last, so that it lies on top.
+  for (std::size_t i = set.kept; i-- > 0;) {
+    draw_edge(set, set.edges[i], rank_colour(static_cast<double>(i) / last), canvas);
+  }
+  for (const Junction& junction : set.junctions) {
+    canvas.ring(static_cast<float>(junction.at.x), static_cast<float>(junction.at.y),
+                {90, 220, 255});
+  }
+}
+
+}  // namespace thermedge::io

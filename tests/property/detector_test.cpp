@@ -1,0 +1,163 @@
+// What holds for the whole detector on any frame.
+#include "thermedge/detector.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "support/images.hpp"
+#include "thermedge/io/edges_file.hpp"
+#include "thermedge/sim/scene.hpp"
+
+namespace thermedge {
+namespace {
+
+sim::TrueFrame small_desk(double sigma_counts) {
+  sim::SceneOptions scene;
+  scene.camera.width = 192;
+  scene.camera.height = 144;
+  scene.camera.sigma_counts = sigma_counts;
+  auto frame = sim::render(scene, 0);
+  EXPECT_TRUE(frame) << frame.error().message;
+  return std::move(*frame);
+}
+
+Detector detector(const DetectorOptions& options) {
+  auto made = Detector::create(options);
+  EXPECT_TRUE(made);
+  return std::move(*made);
+}
+
+// The whole result as text, without the times.
+std::string fingerprint(const Detection& detection) {
+  const std::string json = io::edges_to_json(detection, {"", ""});
+  return json.substr(0, json.find("\"stats\""));
+}
+
+class EveryDenoiser : public testing::TestWithParam<DenoiseMethod> {};
+
+TEST_P(EveryDenoiser, GivesTheSameEdgesForAllThreadCountsAndSimdTargets) {
+  const auto frame = small_desk(20);
+  DetectorOptions options;
+  options.denoise.method = GetParam();
+  options.contours.min_component_px = 10;
+  std::string expected;
+  test::for_each_simd_target([&](const std::string&) {
+    for (const int threads : {1, 2, 5}) {
+      options.threads = threads;
+      Detector one = detector(options);
+      const auto detection = one.detect(frame.counts);
+      ASSERT_TRUE(detection);
+      ASSERT_GT((*detection)->edges.edges.size(), 3U);
+      const std::string found = fingerprint(**detection);
+      expected = expected.empty() ? found : expected;
+      EXPECT_EQ(found, expected) << threads << " threads";
+    }
+  });
+}
+
+INSTANTIATE_TEST_SUITE_P(All, EveryDenoiser,
+                         testing::Values(DenoiseMethod::kNone, DenoiseMethod::kGaussian,
+                                         DenoiseMethod::kNlm, DenoiseMethod::kBm3d));
+
+TEST(Detector, GivesTheSameForAFrameAgain) {
+  const auto frame = small_desk(6);
+  const auto other = test::noise_image<std::uint16_t>(192, 144, 3000, 50, 1);
+  Detector one = detector({});
+  const std::string first = fingerprint(**one.detect(frame.counts));
+  ASSERT_TRUE(one.detect(other));
+  EXPECT_EQ(fingerprint(**one.detect(frame.counts)), first);
+}
+
+TEST(Detector, IsBlindToAnOffsetOfTheCounts) {
+  auto frame = small_desk(6);
+  Detector one = detector({});
+  const std::string first = fingerprint(**one.detect(frame.counts));
+  for (int y = 0; y < frame.counts.height(); ++y) {
+    for (int x = 0; x < frame.counts.width(); ++x) {
+      frame.counts(x, y) = static_cast<std::uint16_t>(frame.counts(x, y) + 1000);
+    }
+  }
+  EXPECT_EQ(fingerprint(**one.detect(frame.counts)), first);
+}
+
+TEST(Detector, KeepsBudgetsAndRanks) {
+  const auto frame = small_desk(6);
+  DetectorOptions options;
+  options.contours.min_component_px = 0;
+  options.scoring.keep_edges = 5;
+  Detector one = detector(options);
+  const auto detection = one.detect(frame.counts);
+  ASSERT_TRUE(detection);
+  const EdgeSet& set = (*detection)->edges;
+  ASSERT_GT(set.edges.size(), 5U);
+  EXPECT_EQ(set.kept, 5U);
+  for (std::size_t i = 0; i < set.edges.size(); ++i) {
+    EXPECT_EQ(set.edges[i].rank, static_cast<int>(i));
+    EXPECT_EQ(set.edges[i].kept, i < set.kept);
+    if (i > 0) {
+      EXPECT_GE(set.edges[i].score, set.edges[i - 1].score);
+    }
+  }
+}
+
+TEST(Detector, TakesEveryFrameFromOnePixelUp) {
+  Detector one = detector({});
+  for (int height = 1; height <= 20; height += 3) {
+    for (int width = 1; width <= 20; ++width) {
+      const auto frame = test::noise_image<std::uint16_t>(width, height, 3000, 100, 5);
+      const auto detection = one.detect(frame);
+      ASSERT_TRUE(detection) << width << "x" << height << ": " << detection.error().message;
+    }
+  }
+}
+
+TEST(Detector, FindsNothingInAFlatFrame) {
+  Image<std::uint16_t> flat(100, 80);
+  for (const int level : {0, 3000, 65535}) {
+    fill_pixels(flat.view(), static_cast<std::uint16_t>(level));
+    Detector one = detector({});
+    const auto detection = one.detect(flat);
+    ASSERT_TRUE(detection);
+    EXPECT_TRUE((*detection)->edges.edges.empty());
+  }
+}
+
+TEST(Detector, TakesAViewIntoALargerBuffer) {
+  const auto frame = small_desk(6);
+  Image<std::uint16_t> buffer(300, 200);
+  fill_pixels(buffer.view(), std::uint16_t{65535});
+  const auto window = buffer.view().crop(17, 23, frame.counts.width(), frame.counts.height());
+  copy_pixels(frame.counts.view(), window);
+  Detector one = detector({});
+  const std::string first = fingerprint(**one.detect(frame.counts));
+  EXPECT_EQ(fingerprint(**one.detect(window)), first);
+}
+
+TEST(Detector, TraceOfItsOwnEdgeMapGivesItsEdges) {
+  const auto frame = small_desk(6);
+  Detector one = detector({});
+  Detector other = detector({});
+  const Detection& detected = **one.detect(frame.counts);
+  const Detection& traced = **other.trace(detected.edge_map);
+  ASSERT_EQ(detected.edges.edges.size(), traced.edges.edges.size());
+  EXPECT_EQ(detected.edges.edgels.x, traced.edges.edgels.x);
+  EXPECT_EQ(detected.edges.edgels.y, traced.edges.edgels.y);
+  EXPECT_EQ(detected.edges.corners, traced.edges.corners);
+}
+
+TEST(Detector, RefusesBadInputWithOneLine) {
+  DetectorOptions options;
+  options.canny.low_over_high = std::numeric_limits<double>::quiet_NaN();
+  const auto made = Detector::create(options);
+  ASSERT_FALSE(made);
+  EXPECT_EQ(made.error().message, "canny.low_over_high = nan is out of range: 0 to 1");
+
+  Detector one = detector({});
+  const auto nothing = one.detect(ImageView<const std::uint16_t>());
+  ASSERT_FALSE(nothing);
+  EXPECT_EQ(nothing.error().message, "frame: it has no pixels");
+}
+
+}  // namespace
+}  // namespace thermedge

@@ -1,0 +1,206 @@
+// The program as a user types it: results, messages, exit codes.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "support/program.hpp"
+#include "thermedge/io/source.hpp"
+
+namespace thermedge::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Program : public testing::Test {
+ protected:
+  void SetUp() override {
+    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
+    directory_ = fs::path(testing::TempDir()) / (std::string("thermedge_program_") + info->name());
+    fs::remove_all(directory_);
+    fs::create_directories(directory_);
+    if (std::string(THERMEDGE_PROGRAM).empty()) {
+      GTEST_SKIP() << "the program was not built (THERMEDGE_BUILD_CLI)";
+    }
+  }
+  void TearDown() override { fs::remove_all(directory_); }
+
+  ProgramRun run(const std::string& arguments) const { return run_program(arguments, directory_); }
+
+  // Small and quick: 96x72 without a slow denoiser.
+  static constexpr const char* kScene = "'sim:desk?width=96&height=72'";
+  static constexpr const char* kQuick = " --denoise gaussian --set contours.min_component_px=10 ";
+
+  fs::path directory_;
+};
+
+TEST_F(Program, WritesAMaskEdgesAndVectorsOfOneFrame) {
+  for (const std::string name : {"x.png", "x.json", "x.svg"}) {
+    const auto result = run(std::string("detect ") + kScene + kQuick + "-o " + name);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(result.out + result.err, "");
+    EXPECT_GT(fs::file_size(directory_ / name), 100U);
+  }
+  const auto mask = io::read_picture((directory_ / "x.png").string());
+  ASSERT_TRUE(mask);
+  EXPECT_EQ(mask->counts.width(), 96);
+  EXPECT_EQ(mask->bits, 8);
+}
+
+TEST_F(Program, WritesEveryKindForEveryFrame) {
+  const auto result = run("detect 'sim:desk?width=96&height=72&frames=3'" + std::string(kQuick) +
+                          "-o out --write mask,strength,labels,json,svg,overlay,distance");
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  for (const std::string kind :
+       {"mask", "strength", "labels", "json", "svg", "overlay", "distance"}) {
+    std::size_t files = 0;
+    for (const auto& entry : fs::directory_iterator(directory_ / "out" / kind)) {
+      EXPECT_TRUE(entry.path().stem().string().starts_with("desk_000")) << entry.path();
+      ++files;
+    }
+    EXPECT_EQ(files, 3U) << kind;
+  }
+}
+
+TEST_F(Program, JsonHasWhatIsPromised) {
+  ASSERT_EQ(run(std::string("detect ") + kScene + kQuick + "--keep 3 -o x.json").exit_code, 0);
+  const auto json = nlohmann::json::parse(file_text(directory_ / "x.json"));
+  EXPECT_EQ(json["width"], 96);
+  EXPECT_EQ(json["height"], 72);
+  EXPECT_EQ(json["preset"], "paper");
+  ASSERT_EQ(json["edges"].size(), 3U);
+  for (const auto& edge : json["edges"]) {
+    for (const std::string key :
+         {"id", "rank", "score", "es", "z", "log10_nfa", "closed", "length_px", "contrast_counts",
+          "corners", "connected", "track", "points"}) {
+      EXPECT_TRUE(edge.contains(key)) << key;
+    }
+    EXPECT_TRUE(edge["track"].is_null());
+    EXPECT_EQ(edge["points"][0].size(), 2U);
+    for (const auto& corner : edge["corners"]) {
+      EXPECT_LT(corner.get<std::size_t>(), edge["points"].size());
+    }
+  }
+  EXPECT_TRUE(json["stats"]["ms"].contains("denoise"));
+}
+
+TEST_F(Program, JsonLinesGoToStandardOutput) {
+  const auto result =
+      run("detect 'sim:desk?width=96&height=72&frames=2' -o -" + std::string(kQuick));
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  ASSERT_EQ(count_lines(result.out), 2U);
+  EXPECT_NO_THROW((void)nlohmann::json::parse(result.out.substr(0, result.out.find('\n'))));
+}
+
+TEST_F(Program, GoesOnAfterABadFileAndExitsWith1) {
+  ASSERT_EQ(run(std::string("scale ") + kScene + " -o good.png").exit_code, 0);
+  std::ofstream(directory_ / "bad.png") << "\x89PNG\r\n\x1a\nrubbish";
+  const auto result = run("scale bad.png good.png missing.png good.png -o out");
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(count_lines(result.err), 2U) << result.err;
+  EXPECT_NE(result.err.find("bad.png"), std::string::npos);
+  EXPECT_NE(result.err.find("missing.png"), std::string::npos);
+  EXPECT_TRUE(fs::exists(directory_ / "out/good.png"));
+  EXPECT_TRUE(fs::exists(directory_ / "out/good_2.png")) << "the same stem twice";
+}
+
+TEST_F(Program, TraceTakesAnEdgeMapAndMeasuresNoContrast) {
+  ASSERT_EQ(run(std::string("detect ") + kScene + kQuick + "-o map.png").exit_code, 0);
+  ASSERT_EQ(run("trace map.png --set contours.min_component_px=0 --set linking.gap_px=0 "
+                "--keep 0 -o x.json")
+                .exit_code,
+            0);
+  const auto json = nlohmann::json::parse(file_text(directory_ / "x.json"));
+  ASSERT_GT(json["edges"].size(), 0U);
+  EXPECT_TRUE(json["edges"][0]["z"].is_null());
+  EXPECT_TRUE(json["edges"][0]["contrast_counts"].is_null());
+}
+
+TEST_F(Program, DenoiseKeeps16Bits) {
+  ASSERT_EQ(run(std::string("denoise ") + kScene + " --method nlm --sigma 6 -o x.png").exit_code,
+            0);
+  const auto picture = io::read_picture((directory_ / "x.png").string());
+  ASSERT_TRUE(picture);
+  EXPECT_EQ(picture->bits, 16);
+}
+
+TEST_F(Program, ReadsRawFramesFromStandardInput) {
+  std::ofstream(directory_ / "frames.raw", std::ios::binary) << std::string(2 * 96 * 72 * 2, 'x');
+  const auto result = run("detect - --raw-size 96x72 -o - --denoise none < frames.raw");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(count_lines(result.out), 2U);
+}
+
+TEST_F(Program, DumpedConfigurationIsReadBack) {
+  const auto dumped = run("detect --set contours.gap_px=2 --keep 7 --dump-config");
+  ASSERT_EQ(dumped.exit_code, 0);
+  std::ofstream(directory_ / "robot.toml") << dumped.out;
+  EXPECT_EQ(run("detect --config robot.toml --dump-config").out, dumped.out);
+}
+
+struct BadUsage {
+  std::string arguments;
+  std::string says;
+};
+
+TEST_F(Program, BadUsageIsOneLineAndExitsWith2) {
+  const std::string scene = kScene;
+  for (const BadUsage& usage : {
+           BadUsage{"detect " + scene + " --set contours.gap_px=99", "contours.gap_px = 99"},
+           BadUsage{"detect " + scene + " --set nonsense=1", "nonsense"},
+           BadUsage{"detect " + scene + " --sigma loud", "--sigma loud"},
+           BadUsage{"detect " + scene + " --simd mmx", "mmx"},
+           BadUsage{"detect " + scene + " -o out --write mask,magic", "magic"},
+           BadUsage{"detect " + scene + " --write mask", "-o DIR"},
+           BadUsage{"detect", "INPUT"},
+           BadUsage{"scale - --raw-size 3by4 -o x.png", "--raw-size 3by4"},
+       }) {
+    const auto result = run(usage.arguments);
+    EXPECT_EQ(result.exit_code, 2) << usage.arguments;
+    EXPECT_EQ(count_lines(result.err), 1U) << result.err;
+    EXPECT_NE(result.err.find(usage.says), std::string::npos) << result.err;
+  }
+  for (const std::string arguments : {"", "magic", "detect x.png --magic", "scale x.png",
+                                      "detect x.png --denoise magic", "detect x.png --keep -1"}) {
+    EXPECT_EQ(run(arguments).exit_code, 2) << arguments;
+  }
+}
+
+TEST_F(Program, BadInputIsOneLineAndExitsWith1) {
+  std::ofstream(directory_ / "notes.txt") << "not a picture";
+  fs::create_directories(directory_ / "empty");
+  for (const std::string input :
+       {"missing.png", "notes.txt", "empty", "'*.tiff'", "sim:magic", "'sim:desk?magic=1'"}) {
+    const auto result = run("detect " + input + " -o x.png");
+    EXPECT_EQ(result.exit_code, 1) << input;
+    EXPECT_EQ(count_lines(result.err), 1U) << result.err;
+    EXPECT_FALSE(fs::exists(directory_ / "x.png"));
+  }
+}
+
+TEST_F(Program, AFailedWriteLeavesTheOldFile) {
+  fs::create_directories(directory_ / "taken.png");
+  const auto result = run(std::string("scale ") + kScene + " -o taken.png");
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_NE(result.err.find("taken.png"), std::string::npos);
+  EXPECT_TRUE(fs::is_directory(directory_ / "taken.png"));
+}
+
+TEST_F(Program, LogsAsJsonOnRequest) {
+  const auto result = run("detect missing.png --json-log");
+  EXPECT_EQ(result.exit_code, 1);
+  const auto entry = nlohmann::json::parse(result.err);
+  EXPECT_EQ(entry["level"], "error");
+}
+
+TEST_F(Program, HelpsAndTellsItsVersion) {
+  for (const std::string arguments : {"--help", "detect --help", "--version"}) {
+    const auto result = run(arguments);
+    EXPECT_EQ(result.exit_code, 0);
+    EXPECT_FALSE(result.out.empty());
+    EXPECT_EQ(result.err, "");
+  }
+}
+
+}  // namespace
+}  // namespace thermedge::test

@@ -1,0 +1,104 @@
+#include "thermedge/io/edges_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "thermedge/io/overlay.hpp"
+
+namespace thermedge::io {
+namespace {
+
+// A closed triangle and a line that touches it; the line is beyond the budget.
+Detection two_edges() {
+  Detection detection;
+  detection.width = 20;
+  detection.height = 10;
+  detection.sigma_counts = 5.8;
+  EdgeSet& set = detection.edges;
+  set.edgels.resize(5);
+  set.edgels.x = {1, 8, 4, 10, 12.3456F};
+  set.edgels.y = {1, 1, 6, 5, 5};
+  set.corners = {0, 1, 2, 0, 1};
+  set.connections = {1, 0};
+  set.edges.resize(2);
+  set.edges[0].closed = true;
+  set.edges[0].kept = true;
+  set.edges[0].score = 1e-7;
+  set.edges[0].z = std::numeric_limits<double>::quiet_NaN();
+  set.edges[0].edgels = {0, 3};
+  set.edges[0].corners = {0, 3};
+  set.edges[0].connections = {0, 1};
+  set.edges[1].id = set.edges[1].rank = 1;
+  set.edges[1].edgels = {3, 2};
+  set.edges[1].corners = {3, 2};
+  set.edges[1].connections = {1, 1};
+  set.junctions = {{{8, 1}}};
+  set.kept = 1;
+  return detection;
+}
+
+TEST(EdgesJson, HoldsTheKeptEdges) {
+  const auto json = nlohmann::json::parse(edges_to_json(two_edges(), {"a.png", "paper"}));
+  EXPECT_EQ(json["source"], "a.png");
+  EXPECT_EQ(json["sigma_counts"], 5.8);
+  ASSERT_EQ(json["edges"].size(), 1U);
+  const auto& edge = json["edges"][0];
+  EXPECT_EQ(edge["points"], nlohmann::json::parse("[[1,1],[8,1],[4,6]]"));
+  EXPECT_EQ(edge["corners"], nlohmann::json::parse("[0,1,2]"));
+  EXPECT_EQ(edge["connected"], nlohmann::json::parse("[1]"));
+  EXPECT_EQ(edge["score"], 1e-7);
+  EXPECT_TRUE(edge["z"].is_null());
+  EXPECT_TRUE(edge["closed"]);
+  EXPECT_EQ(json["junctions"], nlohmann::json::parse("[[8,1]]"));
+  EXPECT_EQ(json["stats"]["edges_found"], 2);
+}
+
+TEST(EdgesJson, RoundsPointsToAThousandth) {
+  Detection detection = two_edges();
+  detection.edges.kept = 2;
+  const auto json = nlohmann::json::parse(edges_to_json(detection, {"", ""}));
+  EXPECT_EQ(json["edges"][1]["points"][1][0], 12.346);
+}
+
+TEST(EdgesJson, IsOneLineWhateverTheName) {
+  const std::string text = edges_to_json(two_edges(), {"a\"\n\xff.png", "paper"});
+  EXPECT_EQ(text.find('\n'), text.size() - 1);
+  EXPECT_NO_THROW((void)nlohmann::json::parse(text));
+}
+
+TEST(EdgesSvg, DrawsClosedPathsAndEscapesNames) {
+  const std::string svg = edges_to_svg(two_edges(), {"a<b>&c", "paper"});
+  EXPECT_NE(svg.find("d=\"M1 1L8 1L4 6Z\""), std::string::npos) << svg;
+  EXPECT_NE(svg.find("a&lt;b&gt;&amp;c"), std::string::npos);
+  EXPECT_EQ(svg.find("edge1"), std::string::npos);
+}
+
+TEST(Overlay, DrawsKeptEdgesAtTwiceTheSize) {
+  Image<Rgb> overlay;
+  draw_overlay(two_edges(), overlay);
+  ASSERT_EQ(overlay.width(), 40);
+  ASSERT_EQ(overlay.height(), 20);
+  EXPECT_EQ(overlay(9, 3), rank_colour(0));       // on the side from (1, 1) to (8, 1)
+  EXPECT_EQ(overlay(23, 11), (Rgb{20, 20, 20}));  // the line beyond the budget is not drawn
+}
+
+TEST(Overlay, ViewSpreadsTheRangeAndDoesNotBlowUpNoise) {
+  Image<std::uint16_t> counts(100, 1);
+  Image<std::uint8_t> view(100, 1);
+  for (int x = 0; x < 100; ++x) {
+    counts(x, 0) = static_cast<std::uint16_t>(3000 + 10 * x);
+  }
+  draw_view(counts, view);
+  EXPECT_EQ(view(0, 0), 0);
+  EXPECT_GE(view(99, 0), 253);
+  for (int x = 0; x < 100; ++x) {
+    counts(x, 0) = static_cast<std::uint16_t>(3000 + x % 2);
+  }
+  draw_view(counts, view);
+  EXPECT_LE(std::abs(view(1, 0) - view(0, 0)), 16);
+}
+
+}  // namespace
+}  // namespace thermedge::io
