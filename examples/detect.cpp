@@ -1,0 +1,36 @@
+// Detects the edges of one picture and prints the best ten.
+//   detect FRAME.png
+#include <algorithm>
+#include <cstdio>
+
+#include "thermedge/detector.hpp"
+#include "thermedge/io/source.hpp"
+
+int main(int argc, char** argv) {
+  if (argc != 2) {
+    std::fprintf(stderr, "usage: detect FRAME\n");
+    return 2;
+  }
+  const auto frame = thermedge::io::read_picture(argv[1]);
+  if (!frame) {
+    std::fprintf(stderr, "%s\n", frame.error().message.c_str());
+    return 1;
+  }
+  auto detector = thermedge::Detector::create(thermedge::preset_options(thermedge::Preset::kPaper));
+  if (!detector) {
+    std::fprintf(stderr, "%s\n", detector.error().message.c_str());
+    return 1;
+  }
+  const auto detection = detector->detect(frame->counts, frame->bits);
+  if (!detection) {
+    std::fprintf(stderr, "%s\n", detection.error().message.c_str());
+    return 1;
+  }
+  for (const thermedge::Edge& edge :
+       (*detection)
+           ->edges.kept_edges()
+           .first(std::min<std::size_t>(10, (*detection)->edges.kept))) {
+    std::printf("edge %d: %.0f px, %.0f counts of contrast, %s\n", edge.id, edge.length_px,
+                edge.contrast_counts, edge.closed ? "closed" : "open");
+  }
+}
