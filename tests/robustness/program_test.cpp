@@ -15,15 +15,10 @@ namespace fs = std::filesystem;
 class Program : public testing::Test {
  protected:
   void SetUp() override {
-    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-    directory_ = fs::path(testing::TempDir()) / (std::string("thermedge_program_") + info->name());
-    fs::remove_all(directory_);
-    fs::create_directories(directory_);
     if (std::string(THERMEDGE_PROGRAM).empty()) {
       GTEST_SKIP() << "the program was not built (THERMEDGE_BUILD_CLI)";
     }
   }
-  void TearDown() override { fs::remove_all(directory_); }
 
   ProgramRun run(const std::string& arguments) const { return run_program(arguments, directory_); }
 
@@ -31,7 +26,8 @@ class Program : public testing::Test {
   static constexpr const char* kScene = "'sim:desk?width=96&height=72'";
   static constexpr const char* kQuick = " --denoise gaussian --set contours.min_component_px=10 ";
 
-  fs::path directory_;
+  TemporaryDirectory temporary_;
+  const fs::path& directory_ = temporary_.path();
 };
 
 TEST_F(Program, WritesAMaskEdgesAndVectorsOfOneFrame) {

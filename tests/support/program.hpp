@@ -1,14 +1,14 @@
 // Runs the thermedge program as a user would.
 #pragma once
 
-#include <gtest/gtest.h>
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 #include <string>
+
+#include "support/files.hpp"
 
 namespace thermedge::test {
 
@@ -17,13 +17,6 @@ struct ProgramRun {
   std::string out;
   std::string err;
 };
-
-inline std::string file_text(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
 
 // `arguments` as typed behind "thermedge" in a shell, in `directory`.
 inline ProgramRun run_program(const std::string& arguments,

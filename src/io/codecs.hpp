@@ -1,0 +1,63 @@
+// The picture formats, one decoder and one encoder each, on bytes in memory.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "thermedge/image.hpp"
+#include "thermedge/io/source.hpp"
+#include "thermedge/io/write.hpp"
+#include "thermedge/limits.hpp"
+#include "thermedge/result.hpp"
+
+namespace thermedge::io {
+
+using Bytes = std::span<const std::byte>;
+
+// What a decoder works on: the bytes, the name for messages, the bounds.
+struct EncodedFile {
+  Bytes bytes;
+  const std::string& name;
+  const Limits& limits;
+};
+
+// Decoders check the size against the limits before they allocate and fill `counts` and `bits` of
+// the frame. A file that ends early, or whose checksums do not match, is an error.
+[[nodiscard]] Status decode_png(const EncodedFile& file, Frame& frame);
+[[nodiscard]] Status decode_pgm(const EncodedFile& file, Frame& frame);
+[[nodiscard]] Status decode_tiff(const EncodedFile& file, std::size_t page, Frame& frame);
+[[nodiscard]] Status decode_npy(const EncodedFile& file, std::size_t page, Frame& frame);
+[[nodiscard]] Result<std::size_t> count_tiff_pages(const EncodedFile& file);
+[[nodiscard]] Result<std::size_t> count_npy_pages(const EncodedFile& file);
+
+// A picture to encode: rows of `channels` samples of `bits` bits (8 or 16, native byte order).
+struct Samples {
+  const void* data = nullptr;
+  std::size_t row_bytes = 0;  // distance between rows in memory
+  int width = 0;
+  int height = 0;
+  int bits = 8;
+  int channels = 1;
+
+  [[nodiscard]] const std::byte* row(int y) const {
+    return static_cast<const std::byte*>(data) + static_cast<std::size_t>(y) * row_bytes;
+  }
+  [[nodiscard]] std::size_t packed_row_bytes() const {
+    return static_cast<std::size_t>(width) * channels * (bits / 8);
+  }
+};
+
+// Encoders give the whole file. `name` is for messages.
+[[nodiscard]] Result<std::string> encode_png(const Samples& samples, const std::string& name);
+[[nodiscard]] Result<std::string> encode_tiff(const Samples& samples, const std::string& name);
+[[nodiscard]] std::string encode_pgm(const Samples& samples);
+[[nodiscard]] std::string encode_npy(const Samples& samples);
+[[nodiscard]] std::string encode_raw(const Samples& samples);
+
+// Widens packed samples of 1 or 2 bytes into the frame; `big_endian` says how the 2 bytes lie.
+void unpack_samples(Bytes packed, int bits, bool big_endian, Frame& frame);
+
+}  // namespace thermedge::io
