@@ -14,20 +14,20 @@ namespace thermedge::sim {
 // What the sensor does to the picture. All noise is seeded; fixed pattern and dead pixels stay the
 // same over a sequence.
 struct CameraOptions {
-  int width = 382;               // px, 16..4096
-  int height = 288;              // px
-  double blur_px = 1.0;          // standard deviation of the optical blur, px
-  double sigma_counts = 5.8;     // temporal noise of a pixel, counts
+  int width = 382;                   // px, 16..4096
+  int height = 288;                  // px
+  double blur_px = 1.0;              // standard deviation of the optical blur, px
+  double sigma_counts = 5.8;         // temporal noise of a pixel, counts
   double column_sigma_counts = 1.2;  // fixed column pattern, counts
   double row_sigma_counts = 0.9;     // fixed row pattern, counts
-  int dead_pixels = 5;           // stuck at 0 or at the largest count
+  int dead_pixels = 5;               // stuck at 0 or at the largest count
 };
 
 struct SceneOptions {
-  std::string name = "desk";  // "desk" (monitor, laptop, mug, phone, charger), "corridor" (walls, doors,
-                              // pipes, lamps)
-  std::uint64_t seed = 1;     // noise, fixed pattern and small variations of the objects
-  int frames = 1;             // the camera moves by hand from frame to frame, a few px
+  std::string name = "desk";  // "desk" (monitor, laptop, mug, phone, charger), "corridor" (walls,
+                              // doors, pipes, lamps)
+  std::uint64_t seed = 1;  // noise, fixed pattern and small variations of the objects
+  int frames = 1;          // the camera moves by hand from frame to frame, a few px
   CameraOptions camera;
 };
 
@@ -37,7 +37,7 @@ struct Point {
 
 // A visible piece of an outline, exact to the sub-pixel, with the step across it.
 struct TrueEdge {
-  std::vector<Point> points;   // at most 0.5 px apart
+  std::vector<Point> points;  // at most 0.5 px apart
   bool closed = false;
   double contrast_counts = 0;  // mean absolute step across the edge, counts
   int object = 0;              // whose outline it is; the same over a sequence
@@ -49,8 +49,8 @@ struct TrueFrame {
   std::vector<TrueEdge> edges;
 };
 
-// Parses "sim:NAME[?key=value&...]" with the keys seed, frames, sigma, column_sigma, row_sigma, blur,
-// width, height, dead_pixels. Errors name the key and list what is known.
+// Parses "sim:NAME[?key=value&...]" with the keys seed, frames, sigma, column_sigma, row_sigma,
+// blur, width, height, dead_pixels. Errors name the key and list what is known.
 [[nodiscard]] Result<SceneOptions> parse_scene(std::string_view spec);
 
 // Names of the scenes.
