@@ -15,18 +15,32 @@ struct NoiseEstimate {
   double row_sigma_counts = 0;     // stripes along rows
 };
 
-// Measures noise by the robust high-pass: the residual of [1 -2 1] x [1 -2 1] / 6 (unit gain
-// for white noise, blind to planes, columns and rows), its MAD over flat areas. Stripe levels are
-// what the second difference of column (row) means shows beyond the pixel noise.
-// Holds scratch memory: one estimator per thread. Integer arithmetic: the same result everywhere.
+// Pixel noise by the robust high-pass: the residual of [1 -2 1] x [1 -2 1] / 6 (unit gain for white
+// noise, blind to planes, columns and rows), its MAD over the flatter half of the frame. Stripes:
+// the MAD of the second differences of column (row) offsets, less what the pixel noise adds.
+// Measured on 382x288: sigma within 2 % (standard deviation 0.8 %) with up to 30 % of the area on
+// edges; stripes of sigma / 3 within 10 %; without stripes, up to sigma / 20 is reported, sigma / 8
+// in frames full of strong edges. The rounding to whole counts is taken out, so below sigma 1 the
+// result is rough, and 0 where rounding hides all.
+// One estimator per thread; allocates on the first frame of a size only. Integers up to the last
+// steps: the same result everywhere. Cost: about 0.2 ms for 382x288.
 class NoiseEstimator {
  public:
   [[nodiscard]] NoiseEstimate measure(ImageView<const std::uint16_t> frame);
 
  private:
+  void filter(ImageView<const std::uint16_t> frame);
+  double pixel_sigma();
+  void clear_histogram();
+  double stripe_sigma(ImageView<const std::int32_t> second_differences, double pixel_sigma);
+  ImageView<const std::int32_t> sample_along_rows();
+  ImageView<const std::int32_t> sample_along_columns();
+
+  Image<std::uint16_t> frame_;             // copy whose rows may be read past their end
+  Image<std::uint16_t> residual_, slope_;  // of every other row, without the border
   std::vector<std::uint32_t> histogram_;
-  std::vector<std::int32_t> residual_;
-  std::vector<std::int64_t> profile_;
+  Image<std::int32_t> samples_;
+  std::vector<float> profile_;
 };
 
 }  // namespace thermedge
