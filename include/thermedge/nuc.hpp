@@ -10,8 +10,8 @@ namespace thermedge {
 
 struct NucOptions {
   bool dead_pixels = true;  // replace dead pixels by the median of their good neighbours
-  // How far a pixel must lie outside the range of its eight neighbours to count as dead, in units of
-  // sigma; > 0. The optics spread any real point over several pixels, so 6 spares real hot spots.
+  // How far a pixel must lie outside the range of its neighbours to count as dead, in units of the
+  // noise, > 0. Smaller finds weaker ones and, below about 4, takes noise for dead pixels.
   double dead_pixel_sigmas = 6;
 };
 
@@ -21,9 +21,15 @@ struct DeadPixel {
   friend bool operator==(const DeadPixel&, const DeadPixel&) = default;
 };
 
-// Finds dead pixels (also pairs that touch) and replaces them in place by the median of the good
-// pixels of their 3x3 (where none is good: 5x5) neighbourhood. Returns them in row order, in
-// `dead`, which is cleared first. `sigma_counts` as measured; below 1 count it is taken as 1.
+// Finds dead pixels and replaces them in place by the median of the good pixels of their 3x3 (where
+// none is good: 5x5) neighbourhood. Returns them in row order in `dead`, which is cleared first.
+// A pixel is dead where it lies `dead_pixel_sigmas` outside the range of its eight neighbours, of
+// which the most extreme one is left out, because dead pixels come in pairs; and where it lies
+// farther outside than optics allow: these spread a real point over its neighbours, so it can't
+// stand out of them by more than twice what they stand out of the pixels around them (blur of 0.7
+// px and more). So a dead pixel beside a strong edge is found only when it is off by twice the
+// contrast. `sigma_counts` as measured; below 1 count it is taken as 1. Frames under 5 px a side
+// are left as they are. Thread-safe. Cost: about 0.1 ms for 382x288.
 void correct_dead_pixels(ImageView<std::uint16_t> frame, double sigma_counts,
                          const NucOptions& options, std::vector<DeadPixel>& dead);
 
