@@ -1,6 +1,8 @@
 // Edge pixels by Canny's method (paper Algorithm 2, eqs. 6-8).
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -23,31 +25,55 @@ struct CannyOptions {
 // Gradients and edge pixels of one frame; the views live in the Canny object that made them, until
 // its next run.
 struct CannyResult {
-  ImageView<const float> gx;             // Sobel, positive where the input grows to the right
-  ImageView<const float> gy;             // Sobel, positive where the input grows downwards
-  ImageView<const float> magnitude;      // sqrt(gx^2 + gy^2), eq. 7
-  ImageView<const std::uint8_t> edges;   // 255 edge, 0 none
-  double low = 0;                        // thresholds used
+  ImageView<const float> gx;            // Sobel, positive where the input grows to the right
+  ImageView<const float> gy;            // Sobel, positive where the input grows downwards
+  ImageView<const float> magnitude;     // sqrt(gx^2 + gy^2), eq. 7
+  ImageView<const std::uint8_t> edges;  // 255 edge, 0 none
+  double low = 0;                       // thresholds used
   double high = 0;
 };
 
 // Sobel gradients (eq. 6, borders replicated), magnitude (eq. 7), direction (eq. 8) rounded to
 // 0/45/90/135 degrees, non-maximum suppression along it, hysteresis with 8-connectivity. A pixel
 // survives suppression when its magnitude is > the neighbour before it and >= the one behind it, in
-// reading order, so that a plateau two pixels wide leaves one. Border pixels are never edges.
-// One object per thread; allocates on the first frame of a size only.
+// reading order, so that a plateau two pixels wide leaves one. Edges are above the thresholds, not
+// at them, so a constant frame has none. Border pixels are never edges. The result is bit-identical
+// for every Runner and SIMD target. One object per thread; allocates on the first frame of a size
+// only. Cost on one thread at 382x288: about 0.2 ms, 0.6 ms where noise makes every fourth pixel an
+// edge.
 class Canny {
  public:
   explicit Canny(const CannyOptions& options) : options_(options) {}
 
-  // Errors: empty frame, option out of range, non-finite pixel.
+  // Errors: empty frame, option out of range, a pixel that is NaN, infinite or beyond 1e18.
   [[nodiscard]] Result<CannyResult> run(ImageView<const float> in, Runner& runner);
 
  private:
+  static constexpr int kBins = 64;
+  struct Thresholds {
+    float low;
+    float high;
+  };
+  struct Band {  // what the task of one band of rows found
+    float largest_magnitude;
+    std::array<std::uint32_t, kBins> histogram;
+  };
+
+  void prepare(int width, int height);
+  template <class F>
+  void for_each_band(Runner& runner, F&& task);
+  void add_border(ImageView<const float> in, int y_begin, int y_end);
+  float find_gradients(int y_begin, int y_end);
+  Thresholds choose_thresholds(float largest_magnitude, Runner& runner);
+  void suppress(int y_begin, int y_end, Thresholds thresholds);
+  void connect();
+  void keep_group(std::ptrdiff_t seed);
+
   CannyOptions options_;
-  Image<float> gx_, gy_, magnitude_;
+  std::vector<Band> bands_;
+  Image<float> bordered_, gx_, gy_, magnitude_;
   Image<std::uint8_t> edges_;
-  std::vector<std::int32_t> stack_;
+  std::vector<std::ptrdiff_t> stack_;  // edge pixels whose neighbours are still to be looked at
 };
 
 }  // namespace thermedge
