@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
 #include "thermedge/edges.hpp"
 #include "thermedge/image.hpp"
@@ -10,21 +9,24 @@
 namespace thermedge {
 
 // Fills nx, ny, magnitude_counts and position_sigma_px of the edgels, and contrast_counts, z and
-// log10_nfa of the edges, from the counts before denoising.
-// Contrast: mean difference of the counts 1.5, 2.5 and 3.5 px to both sides along the normal of the
-// smoothed curve. z = contrast / (sigma sqrt(2 / samples)). NFA = tests * P(|Z| > z), tests = number
-// of pieces of all curves, sum of N (N - 1) / 2 (as in edge drawing with a-contrario validation).
-// A frame without noise (sigma 0) gives z = infinity where there is contrast.
-// One object per thread.
-class EdgeMeter {
- public:
-  void run(ImageView<const std::uint16_t> frame, double sigma_counts, EdgeSet& edges);
+// log10_nfa of the edges, from the counts before denoising. Everything else must be set.
+// Normal: across the curve after smoothing (binomial weights, sigma 2 points; closed curves wrap,
+// open ones are reflected at their ends); on all of an edge towards the side that is warmer on
+// average. An edge without a direction (one point) gets (1, 0) or (-1, 0).
+// Magnitude: |counts 1 px ahead - counts 1 px behind| / 2 along the normal, bilinear.
+// Contrast: mean difference of the counts 1.5, 2.5 and 3.5 px to both sides along the normal;
+// samples outside the frame are left out. z = contrast / (sigma sqrt(2 / samples)); bilinear
+// samples are a little less noisy than pixels, so z errs on the safe side by about 10 %. A frame
+// without noise (sigma 0) gives z = infinity where there is contrast, and log10_nfa = -infinity.
+// NFA = tests * P(|Z| > z), tests = number of pieces of all curves, sum of N (N - 1) / 2, at least
+// 1 (as in edge drawing with a-contrario validation). Position sigma: noise moves the place where
+// the profile crosses its middle by sigma / slope, where slope is the magnitude, at least its own
+// noise sigma / sqrt(2); whole pixels add 1 / sqrt(12) px: sqrt(1/12 + (sigma / slope)^2), 0.29
+// .. 1.44 px. Thread-safe. Cost: about 0.1 us per edgel.
+void measure_edges(ImageView<const std::uint16_t> frame, double sigma_counts, EdgeSet& edges);
 
- private:
-  std::vector<float> smooth_x_, smooth_y_;
-};
-
-// Normals from the shape alone, for edges that came without a frame.
+// Normals from the shape alone, for edges that came without a frame: smoothed as above, to the
+// right of the walking direction as seen on the picture.
 void set_normals_from_shape(EdgeSet& edges);
 
 }  // namespace thermedge
