@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <limits>
 #include <new>
 #include <string>
 #include <utility>
@@ -68,7 +69,6 @@ struct Detector::Impl {
   CornerFinder corner_finder;
   Linker linker;
   Scorer scorer;
-  EdgeMeter meter;
 
   Image<std::uint16_t> corrected;
   Image<std::uint8_t> levels, denoised, edge_map;
@@ -89,7 +89,7 @@ Status Detector::Impl::detect(ImageView<const std::uint16_t> frame, int bits) {
       .and_then([&] { return connect(); })
       .map([&] {
         const Stopwatch watch(result.ms.measure);
-        meter.run(corrected, result.noise.sigma_counts, result.edges);
+        measure_edges(corrected, result.noise.sigma_counts, result.edges);
       });
 }
 
@@ -101,7 +101,12 @@ Status Detector::Impl::trace(ImageView<const std::uint8_t> map) {
                    [](std::uint8_t value) { return value != 0 ? std::uint8_t{255} : value; });
   }
   result.edge_map = edge_map;
-  return connect().map([&] { set_normals_from_shape(result.edges); });
+  return connect().map([&] {
+    set_normals_from_shape(result.edges);
+    for (Edge& edge : result.edges.edges) {
+      edge.contrast_counts = edge.z = edge.log10_nfa = std::numeric_limits<double>::quiet_NaN();
+    }
+  });
 }
 
 void Detector::Impl::begin(int width, int height) {
@@ -168,7 +173,6 @@ Status Detector::Impl::denoise(int bits) {
 // Algorithm 2.
 Status Detector::Impl::find_edge_pixels() {
   const Stopwatch watch(result.ms.canny);
-  copy_pixels(result.denoised, working.view());
   return canny.run(working, *runner).map([&](const CannyResult& found) {
     result.edge_map = found.edges;
     result.canny_low = found.low;

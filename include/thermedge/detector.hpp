@@ -58,7 +58,8 @@ class Detector {
   [[nodiscard]] Result<const Detection*> detect(ImageView<const std::uint16_t> frame,
                                                 int bits = 16);
 
-  // The second half alone, on somebody else's binary edge map (nonzero = edge).
+  // The second half alone, on somebody else's binary edge map (nonzero = edge). Contrast, z and NFA
+  // are NaN: only a frame tells them.
   [[nodiscard]] Result<const Detection*> trace(ImageView<const std::uint8_t> edge_map);
 
   [[nodiscard]] const DetectorOptions& options() const;

@@ -30,42 +30,42 @@ void add_monitor(Scene& scene, Variation& vary) {
   scene.add(ellipse({x + 139, y + 176}, 38, 9), kRoomCounts + vary.counts(110));
   scene.add(
       rounded({{x + 48, y + 34}, {x + 232, y + 26}, {x + 234, y + 142}, {x + 46, y + 138}}, 5),
-      kRoomCounts + vary.counts(390), 0.3, -0.4);
+      kRoomCounts + vary.counts(232), 0.05, -0.05);
   scene.add(polygon({{x + 57, y + 43}, {x + 224, y + 36}, {x + 226, y + 131}, {x + 55, y + 128}}),
-            kRoomCounts + vary.counts(560), -0.3, -0.9);
+            kRoomCounts + vary.counts(130), -0.05, -0.1);
 }
 
 void add_laptop(Scene& scene, Variation& vary) {
   const auto [x, y] = vary.shift(5);
   scene.add(
       polygon({{x + 262, y + 100}, {x + 356, y + 108}, {x + 350, y + 174}, {x + 268, y + 168}}),
-      kRoomCounts + vary.counts(150), 0, 0.3);
+      kRoomCounts + vary.counts(120), 0, 0.3);
   scene.add(
       polygon({{x + 268, y + 106}, {x + 350, y + 113}, {x + 345, y + 167}, {x + 273, y + 162}}),
-      kRoomCounts + vary.counts(240), 0.4, 0.5);
+      kRoomCounts + vary.counts(200), 0.4, 0.5);
   scene.add(
       rounded({{x + 268, y + 169}, {x + 350, y + 175}, {x + 364, y + 212}, {x + 250, y + 204}}, 3),
-      kRoomCounts + vary.counts(310), 0.8, 0.4);
+      kRoomCounts + vary.counts(190), 0.8, 0.4);
   scene.add(
       polygon({{x + 284, y + 194}, {x + 320, y + 197}, {x + 322, y + 205}, {x + 282, y + 202}}),
-      kRoomCounts + vary.counts(220));
+      kRoomCounts + vary.counts(110));
 }
 
 void add_mug(Scene& scene, Variation& vary) {
   const auto [x, y] = vary.shift(5);
   scene.add(band({x + 62, y + 196}, {x + 92, y + 206}, {x + 62, y + 226}, 6),
-            kRoomCounts + vary.counts(170));
+            kRoomCounts + vary.counts(100));
   scene.add(polygon({{x + 26, y + 186}, {x + 66, y + 186}, {x + 62, y + 236}, {x + 30, y + 236}}),
-            kRoomCounts + vary.counts(330), 0, 1.2);
-  scene.add(ellipse({x + 46, y + 236}, 16, 5), kRoomCounts + vary.counts(360));
-  scene.add(ellipse({x + 46, y + 186}, 20, 7), kRoomCounts + vary.counts(640));
+            kRoomCounts + vary.counts(170), 0, 1.2);
+  scene.add(ellipse({x + 46, y + 236}, 16, 5), kRoomCounts + vary.counts(185));
+  scene.add(ellipse({x + 46, y + 186}, 20, 7), kRoomCounts + vary.counts(330));
 }
 
 void add_bottle(Scene& scene, Variation& vary) {
   const auto [x, y] = vary.shift(5);
-  scene.add(rounded({{x + 15, y + 62}, {x + 25, y + 62}, {x + 25, y + 80}, {x + 15, y + 80}}, 2),
+  scene.add(rounded({{x + 39, y + 62}, {x + 49, y + 62}, {x + 49, y + 80}, {x + 39, y + 80}}, 2),
             kRoomCounts - vary.counts(110));
-  scene.add(rounded({{x + 6, y + 78}, {x + 34, y + 78}, {x + 34, y + 172}, {x + 6, y + 172}}, 9),
+  scene.add(rounded({{x + 30, y + 78}, {x + 58, y + 78}, {x + 58, y + 172}, {x + 30, y + 172}}, 9),
             kRoomCounts - vary.counts(190), 0, -0.6);
 }
 
@@ -78,13 +78,13 @@ void add_small_things(Scene& scene, Variation& vary) {
   const Point phone{x + 218, y + 254};
   scene.add(turned(rectangle(phone.x - 14, phone.y - 26, phone.x + 14, phone.y + 26, 5), phone,
                    vary.number(0.15, 0.3)),
-            kRoomCounts + vary.counts(260), 0, 1.0);
+            kRoomCounts + vary.counts(170), 0, 0.6);
   const Point charger{x + 330, y + 252};
   scene.add(band({charger.x - 12, charger.y}, {x + 270, y + 284}, {x + 228, y + 262}, 3.5),
             kRoomCounts + vary.counts(150));
   scene.add(turned(rectangle(charger.x - 20, charger.y - 12, charger.x + 20, charger.y + 12, 4),
                    charger, vary.number(0.05, 0.15)),
-            kRoomCounts + vary.counts(520), 1.5, 0.5);
+            kRoomCounts + vary.counts(280), 0.8, 0.5);
 }
 
 }  // namespace

@@ -10,6 +10,7 @@ namespace {
 
 constexpr int kScale = 2;
 constexpr int kLeastRangeCounts = 16;
+constexpr Rgb kBeyondBudget = {70, 120, 150};
 
 struct Stretch {
   int low = 0;
@@ -121,8 +122,12 @@ void draw_edge(const EdgeSet& set, const Edge& edge, Rgb colour, Canvas& canvas)
     const std::uint32_t next = i < last ? i + 1 : (edge.closed ? first : last);
     canvas.line(e.x[i], e.y[i], e.x[next], e.y[next], colour);
   }
+}
+
+void draw_corners(const EdgeSet& set, const Edge& edge, Canvas& canvas) {
   for (const std::uint32_t corner : set.corners_of(edge)) {
-    canvas.square(e.x[first + corner], e.y[first + corner], {255, 255, 255});
+    const std::uint32_t at = edge.edgels.first + corner;
+    canvas.square(set.edgels.x[at], set.edgels.y[at], {255, 255, 255});
   }
 }
 
@@ -156,10 +161,14 @@ void draw_overlay(const Detection& detection, Image<Rgb>& overlay) {
   draw_background(detection, overlay);
   Canvas canvas(overlay);
   const EdgeSet& set = detection.edges;
+  for (std::size_t i = set.kept; i < set.edges.size(); ++i) {
+    draw_edge(set, set.edges[i], kBeyondBudget, canvas);
+  }
   const double last = std::max<double>(1.0, static_cast<double>(set.kept) - 1);
   // Best last, so that it lies on top.
   for (std::size_t i = set.kept; i-- > 0;) {
     draw_edge(set, set.edges[i], rank_colour(static_cast<double>(i) / last), canvas);
+    draw_corners(set, set.edges[i], canvas);
   }
   for (const Junction& junction : set.junctions) {
     canvas.ring(static_cast<float>(junction.at.x), static_cast<float>(junction.at.y),

@@ -13,12 +13,13 @@ namespace thermedge::io {
 // frame whose range is under 16 counts is spread over 16, so that noise is not blown up).
 void draw_view(ImageView<const std::uint16_t> counts, ImageView<std::uint8_t> view);
 
-// Colour of a rank: `share` 0 (best) .. 1 (last) runs from yellow over orange and magenta to violet;
-// its lightness falls steadily, so it also reads in grey and for the colour-blind.
+// Colour of a rank: `share` 0 (best) .. 1 (last) runs from yellow over orange and magenta to
+// violet; its lightness falls steadily, so it also reads in grey and for the colour-blind.
 [[nodiscard]] Rgb rank_colour(double share);
 
-// The frame (or the edge map, where there is no frame) enlarged twice, darkened, with the kept edges
-// as thin lines coloured by rank, their corners as small squares and junctions as rings.
+// The frame (or the edge map, where there is no frame) enlarged twice, darkened, with the kept
+// edges as thin lines coloured by rank, their corners as small squares and junctions as rings.
+// Edges beyond the budgets are drawn in a muted blue, without corners.
 void draw_overlay(const Detection& detection, Image<Rgb>& overlay);
 
 }  // namespace thermedge::io
