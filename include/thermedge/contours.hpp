@@ -1,6 +1,7 @@
 // From edge pixels to curves (paper Algorithm 3, CSS).
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -15,6 +16,12 @@ struct Pixel {
   std::int32_t y = 0;
   friend bool operator==(const Pixel&, const Pixel&) = default;
 };
+
+[[nodiscard]] constexpr std::int64_t squared_distance(Pixel a, Pixel b) {
+  const std::int64_t dx = std::int64_t{a.x} - b.x;
+  const std::int64_t dy = std::int64_t{a.y} - b.y;
+  return dx * dx + dy * dy;
+}
 
 // A run of elements in one of the flat arrays of a result.
 struct Range {
@@ -33,7 +40,7 @@ template <class T>
 }
 
 struct Contour {
-  Range points;         // in ContourSet::points, in walking order
+  Range points;         // in ContourSet::points, in walking order; never empty
   bool closed = false;  // the ends meet; the last point is not repeated
 };
 
@@ -43,6 +50,8 @@ struct Junction {
 };
 
 // Curves in the order in which they were found. Flat arrays: no allocation per curve.
+// The stages behind take the capacity of these arrays, which ContourTracer sets to the most that a
+// frame of this size can hold, as the bound for their own memory.
 struct ContourSet {
   std::vector<Pixel> points;
   std::vector<Contour> contours;
@@ -72,15 +81,25 @@ class ContourTracer {
   explicit ContourTracer(const ContourOptions& options) : options_(options) {}
 
   // `edges`: nonzero = edge. `contours` is cleared first.
-  // Errors: an option out of range. Junctions: ends within gap_px + 1 of a pixel of another curve.
+  // Junctions: ends of open curves at most gap_px + 1 away from a pixel of another curve.
+  // Errors: an option out of range; a frame of more than 2^31 pixels.
   [[nodiscard]] Status run(ImageView<const std::uint8_t> edges, ContourSet& contours);
 
  private:
+  void prepare(ImageView<const std::uint8_t> edges, ContourSet& contours);
+  void remove_small_components();
+  void collect_component(Pixel seed);
+  void trace(Pixel seed, ContourSet& contours);
+  void walk(Pixel from, std::vector<Pixel>& visited);
+  void find_junctions(ContourSet& contours);
+
   ContourOptions options_;
-  Image<std::uint8_t> map_;        // edges with a border, cleared while walking
-  Image<std::int32_t> owner_;      // curve of each pixel, for the junctions
-  std::vector<std::int32_t> stack_;
-  std::vector<Pixel> backward_;
+  std::size_t min_points_ = 1;
+  Image<std::uint8_t> map_;      // edges with a border of gap_px, cleared while walking
+  Image<std::int32_t> owner_;    // curve of each pixel with a border of gap_px + 1, -1: none
+  std::vector<Pixel> steps_;     // of a walk, nearest first
+  std::vector<Pixel> touching_;  // offsets under which an end touches a pixel
+  std::vector<Pixel> visited_;   // a component, or the second half of a walk
 };
 
 }  // namespace thermedge
