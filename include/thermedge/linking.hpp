@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "thermedge/contours.hpp"
@@ -33,28 +34,50 @@ struct LinkedContours {
   void clear();
 };
 
-// Types 1 and 3: all pairs of ends of open curves nearer than gap_px, by distance (ties: by index of
-// the first end, then of the second), greedily, each end once. Type 2: ends that are still free,
-// to the nearest pixel of another curve under gap_px.
-// One object per thread; allocates on the first frame of a size only.
+// Types 1 and 3: all pairs of ends of open curves nearer than gap_px, by distance (ties: by index
+// of the first end, then of the second), greedily, each end once. Type 2: ends that are still free,
+// to the nearest pixel of another curve under gap_px (ties: smaller column, then smaller row).
+//
+// A joined curve takes the place and the direction of the earliest of its parts. A bridge is a
+// digital line between the two ends; it may cross pixels of other curves. That of a loop comes
+// last. Junctions: the ends linked by type 2. gap_px = 0: contours and junctions pass through
+// unchanged. Paper: Algorithm 5. One object per thread; allocates on the first frame of a size
+// only.
 class Linker {
  public:
   explicit Linker(const LinkingOptions& options) : options_(options) {}
 
-  // `width`, `height`: of the frame. `linked` is cleared first. Errors: an option out of range.
+  // `width`, `height`: of the frame, in which all contours lie. `linked` is cleared first.
+  // Errors: an option out of range.
   [[nodiscard]] Status run(const ContourSet& contours, int width, int height,
                            LinkedContours& linked);
 
  private:
-  struct EndPair {
-    std::int64_t squared_distance;
-    std::uint32_t a, b;  // end 2 i + k is end k of contour i
+  // Ends are numbered: 2 i is the first point of contour i, 2 i + 1 the last one.
+  struct EndState {
+    std::int32_t partner;  // the end that it was joined to, or one of the states in linking.cpp
+    std::int32_t far;      // where a chain of curves ends here: the chain's other end
+    std::int32_t next;     // the next end at the same pixel, -1: none
   };
+
+  void prepare(const ContourSet& contours, int width, int height, LinkedContours& linked);
+  void place_ends(const ContourSet& contours);
+  void join_ends(const ContourSet& contours, LinkedContours& linked);
+  [[nodiscard]] std::int32_t find_free_end(Pixel around, std::span<const Pixel> offsets,
+                                           std::int32_t other_than) const;
+  void join(const ContourSet& contours, std::int32_t a, std::int32_t b, LinkedContours& linked);
+  void assemble(const ContourSet& contours, LinkedContours& linked);
+  [[nodiscard]] std::int32_t chain_start(std::int32_t end) const;
+  void append_chain(const ContourSet& contours, std::int32_t start, LinkedContours& linked);
+  void paint_owners(const ContourSet& contours, const LinkedContours& linked);
+  void connect_free_ends(const ContourSet& contours, LinkedContours& linked) const;
+
   LinkingOptions options_;
-  Image<std::int32_t> owner_;
-  std::vector<EndPair> pairs_;
-  std::vector<std::int32_t> partner_;
-  std::vector<std::uint32_t> cells_;
+  std::vector<Pixel> offsets_;  // under gap_px, nearest first
+  std::vector<EndState> ends_;
+  std::vector<std::int32_t> linked_as_;  // contour in the linked set that a contour became part of
+  Image<std::int32_t> end_at_;           // first of the ends at each pixel, -1: none
+  Image<std::int32_t> owner_;            // linked contour of each pixel, -1: none
 };
 
 }  // namespace thermedge
