@@ -1,6 +1,7 @@
 // The result of detection: edgels, edges, junctions. One structure for every preset.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -9,18 +10,18 @@
 
 namespace thermedge {
 
-// Points of edges as a structure of arrays, all of one length; the edgels of an edge are consecutive,
-// in walking order. Pixel centres lie at integer coordinates.
+// Points of edges as a structure of arrays, all of one length; the edgels of an edge are
+// consecutive, in walking order. Pixel centres lie at integer coordinates.
 struct Edgels {
-  std::vector<float> x, y;                // px
-  std::vector<float> nx, ny;              // unit normal, towards the warmer side
-  std::vector<float> magnitude_counts;    // gradient across the edge, counts per px
-  std::vector<float> position_sigma_px;   // standard deviation of the position along the normal
-  std::vector<std::int32_t> edge;         // index into EdgeSet::edges
+  std::vector<float> x, y;                   // px
+  std::vector<float> nx, ny;                 // unit normal, towards the warmer side
+  std::vector<float> magnitude_counts;       // gradient across the edge, counts per px
+  std::vector<float> position_sigma_px;      // standard deviation of the position along the normal
+  std::vector<std::int32_t> edge;            // index into EdgeSet::edges
   std::vector<std::int32_t> previous, next;  // edgel before and behind, -1 at an open end
 
   [[nodiscard]] std::size_t size() const { return x.size(); }
-  void resize(std::size_t count);
+  void resize(std::size_t count);  // new edgels are all zero
   void reserve(std::size_t count);
 };
 
@@ -29,17 +30,17 @@ struct BoundingBox {
 };
 
 struct Edge {
-  std::int32_t id = 0;      // unique within the frame
-  std::int32_t rank = 0;    // 0 = best
-  double score = 0;         // what the preset ranks by (paper: ES, smaller is better)
-  double es = 0;            // edge score of the paper, eqs. 14-18
-  double z = 0;             // contrast across the edge on the frame before denoising, in units of
-                            // its standard deviation by noise alone
-  double log10_nfa = 0;     // log10 of the expected number of such edges in pure noise
-  double length_px = 0;     // arc length
+  std::int32_t id = 0;    // unique within the frame: the rank
+  std::int32_t rank = 0;  // 0 = best
+  double score = 0;       // what the preset ranks by (paper: ES, smaller is better)
+  double es = 0;          // edge score of the paper, eqs. 14-18
+  double z = 0;           // contrast across the edge on the frame before denoising, in units of
+                          // its standard deviation by noise alone
+  double log10_nfa = 0;   // log10 of the expected number of such edges in pure noise
+  double length_px = 0;   // arc length
   double contrast_counts = 0;  // mean step across the edge, counts
   bool closed = false;
-  bool kept = false;        // within the budgets (keep_edges, max_edgels)
+  bool kept = false;  // within the budgets (keep_edges, max_edgels)
   BoundingBox box;
   Range edgels;             // in EdgeSet::edgels
   Range corners;            // in EdgeSet::corners
