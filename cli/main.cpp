@@ -1,30 +1,44 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
+#include <string>
 
 #include "commands.hpp"
 #include "report.hpp"
 #include "thermedge/simd.hpp"
 
-int main(int argc, char** argv) {
-  namespace cli = thermedge::cli;
+namespace thermedge::cli {
+namespace {
+
+int run(int argc, char** argv) {
   CLI::App program{"thermedge finds the smooth, connected edges in noisy thermal-infrared frames."};
-  program.set_version_flag("--version",
-                           "thermedge " THERMEDGE_VERSION " (" + thermedge::simd_target() + ")");
+  program.set_version_flag("--version", "thermedge " THERMEDGE_VERSION " (" + simd_target() + ")");
   program.require_subcommand(1);
-  int exit_code = cli::kGood;
-  cli::add_detect(program, exit_code);
-  cli::add_trace(program, exit_code);
-  cli::add_scale(program, exit_code);
-  cli::add_denoise(program, exit_code);
+  program.failure_message([](const CLI::App*, const CLI::Error& error) {
+    return std::string("thermedge: error: ") + error.what() + " (--help shows what there is)\n";
+  });
+  int exit_code = kGood;
+  add_detect(program, exit_code);
+  add_trace(program, exit_code);
+  add_scale(program, exit_code);
+  add_denoise(program, exit_code);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     // Help and version are no errors; everything else is bad usage.
-    return program.exit(error) == 0 ? cli::kGood : cli::kBadUsage;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "thermedge: error: %s\n", error.what());
-    return cli::kBadInput;
+    return program.exit(error) == 0 ? kGood : kBadUsage;
   }
   return exit_code;
+}
+
+}  // namespace
+}  // namespace thermedge::cli
+
+int main(int argc, char** argv) {
+  try {
+    return thermedge::cli::run(argc, argv);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "thermedge: error: %s\n", error.what());
+    return thermedge::cli::kBadInput;
+  }
 }

@@ -113,6 +113,21 @@ class CountsDenoiser {
   std::vector<DeadPixel> dead_;
 };
 
+// With the bits that the frame came with.
+Status write_counts(const std::string& path, ImageView<const std::uint16_t> counts, int bits) {
+  if (bits == 16) {
+    return io::write_picture(path, counts);
+  }
+  Image<std::uint8_t> levels(counts.width(), counts.height());
+  for (int y = 0; y < counts.height(); ++y) {
+    std::transform(counts.row(y), counts.row(y) + counts.width(), levels.row(y),
+                   [](std::uint16_t count) {
+                     return static_cast<std::uint8_t>(std::min<std::uint16_t>(count, 255));
+                   });
+  }
+  return io::write_picture(path, ImageView<const std::uint8_t>(levels.view()));
+}
+
 struct DenoiseCommand {
   CommonOptions common;
   ConfigOptions config;
@@ -152,7 +167,7 @@ struct DenoiseCommand {
     return for_each_frame(common, *source, report, [&](const io::Frame& frame) -> Status {
       return denoiser.run(frame.counts).and_then([&](ImageView<const std::uint16_t> counts) {
         return output.path(frame.stem).and_then([&](const std::string& path) {
-          return io::write_picture(path, counts);
+          return write_counts(path, counts, frame.bits);
         });
       });
     });

@@ -100,10 +100,10 @@ Status ResultWriter::write(const Detection& detection, const io::ResultLabel& la
   }
   directory_.begin_frame(stem);
   for (const std::string& kind : kinds_) {
-    const Status status = directory_.path(kind, std::string(find_kind(kind)->ending))
-                              .and_then([&](const std::string& path) {
-                                return write_kind(kind, path, detection, label);
-                              });
+    Status status = directory_.path(kind, std::string(find_kind(kind)->ending))
+                        .and_then([&](const std::string& path) {
+                          return write_kind(kind, path, detection, label);
+                        });
     if (!status) {
       return status;
     }

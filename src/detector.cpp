@@ -59,6 +59,7 @@ struct Detector::Impl {
   Status denoise(int bits);
   Status find_edge_pixels();
   Status connect();
+  Status find_corners();
 
   DetectorOptions options;
   std::unique_ptr<Runner> runner;
@@ -193,14 +194,20 @@ Status Detector::Impl::connect() {
         return timed(ms.linking,
                      [&] { return linker.run(contours, result.width, result.height, linked); });
       })
-      .and_then([&] {
-        return timed(ms.corners, [&] { return corner_finder.run(linked.contours, corners); });
-      })
+      .and_then([&] { return timed(ms.corners, [&] { return find_corners(); }); })
       .and_then([&] {
         return timed(ms.scoring, [&] {
           return scorer.run(linked, corners, result.width, result.height, result.edges);
         });
       });
+}
+
+Status Detector::Impl::find_corners() {
+  return corner_finder.run(linked.contours, corners).map([&] {
+    if (options.linking.gap_px > 0) {
+      merge_seam_corners(linked.contours, options.corners.end_distance_px, corners);
+    }
+  });
 }
 
 Result<Detector> Detector::create(const DetectorOptions& options) {

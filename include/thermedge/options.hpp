@@ -55,6 +55,9 @@ struct EnumName {
   E value;
   std::string_view name;
 };
+template <class E>
+EnumName(E, std::string_view) -> EnumName<E>;
+
 inline constexpr std::array kDenoiseMethods = {
     EnumName{DenoiseMethod::kNone, "none"}, EnumName{DenoiseMethod::kGaussian, "gaussian"},
     EnumName{DenoiseMethod::kNlm, "nlm"}, EnumName{DenoiseMethod::kBm3d, "bm3d"}};

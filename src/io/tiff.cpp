@@ -127,9 +127,10 @@ Result<Header> read_header(TIFF* tiff, const EncodedFile& file) {
   });
 }
 
-void store_row(const std::byte* samples, const Header& header, int count, std::uint16_t* row) {
+void store_row(const std::byte* samples, const Header& header, std::size_t count,
+               std::uint16_t* row) {
   const auto largest = static_cast<std::uint16_t>(header.bits == 8 ? 255 : 65535);
-  for (int x = 0; x < count; ++x) {
+  for (std::size_t x = 0; x < count; ++x) {
     std::uint16_t value = 0;
     if (header.bits == 8) {
       value = std::to_integer<std::uint16_t>(samples[x]);
@@ -149,7 +150,7 @@ bool read_strips(TIFF* tiff, const Header& header, ImageView<std::uint16_t> coun
     if (TIFFReadScanline(tiff, line.data(), static_cast<std::uint32_t>(y)) != 1) {
       return false;
     }
-    store_row(line.data(), header, counts.width(), counts.row(y));
+    store_row(line.data(), header, header.width, counts.row(y));
   }
   return true;
 }
@@ -172,9 +173,9 @@ bool read_tiles(TIFF* tiff, const Header& header, const Limits& limits,
       if (TIFFReadTile(tiff, tile.data(), x0, y0, 0, 0) < 0) {
         return false;
       }
-      const auto columns = static_cast<int>(std::min(tile_width, header.width - x0));
+      const std::size_t columns = std::min(tile_width, header.width - x0);
       for (std::uint32_t y = y0; y < std::min(y0 + tile_height, header.height); ++y) {
-        store_row(tile.data() + (y - y0) * tile_width * pixel_bytes, header, columns,
+        store_row(tile.data() + std::size_t{y - y0} * tile_width * pixel_bytes, header, columns,
                   counts.row(static_cast<int>(y)) + x0);
       }
     }

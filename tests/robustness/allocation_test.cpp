@@ -90,7 +90,12 @@ INSTANTIATE_TEST_SUITE_P(
     All, AllocationOf,
     testing::Combine(testing::Values(DenoiseMethod::kNone, DenoiseMethod::kGaussian,
                                      DenoiseMethod::kNlm, DenoiseMethod::kBm3d),
-                     testing::Values(1, 2)));
+                     testing::Values(1, 2)),
+    [](const auto& test) {
+      const auto& [method, threads] = test.param;
+      return std::string(kDenoiseMethods[static_cast<std::size_t>(method)].name) + "_" +
+             std::to_string(threads) + "_threads";
+    });
 
 TEST(Allocation, TheCounterCounts) {
   const long before = allocations;

@@ -85,7 +85,7 @@ TEST_F(Program, JsonLinesGoToStandardOutput) {
       run("detect 'sim:desk?width=96&height=72&frames=2' -o -" + std::string(kQuick));
   ASSERT_EQ(result.exit_code, 0) << result.err;
   ASSERT_EQ(count_lines(result.out), 2U);
-  EXPECT_NO_THROW((void)nlohmann::json::parse(result.out.substr(0, result.out.find('\n'))));
+  EXPECT_TRUE(nlohmann::json::accept(result.out.substr(0, result.out.find('\n'))));
 }
 
 TEST_F(Program, GoesOnAfterABadFileAndExitsWith1) {
@@ -118,6 +118,14 @@ TEST_F(Program, DenoiseKeeps16Bits) {
   const auto picture = io::read_picture((directory_ / "x.png").string());
   ASSERT_TRUE(picture);
   EXPECT_EQ(picture->bits, 16);
+}
+
+TEST_F(Program, DenoiseKeeps8Bits) {
+  ASSERT_EQ(run(std::string("scale ") + kScene + " -o view.png").exit_code, 0);
+  ASSERT_EQ(run("denoise view.png --method gaussian -o x.png").exit_code, 0);
+  const auto picture = io::read_picture((directory_ / "x.png").string());
+  ASSERT_TRUE(picture);
+  EXPECT_EQ(picture->bits, 8);
 }
 
 TEST_F(Program, ReadsRawFramesFromStandardInput) {
@@ -158,7 +166,9 @@ TEST_F(Program, BadUsageIsOneLineAndExitsWith2) {
   }
   for (const std::string arguments : {"", "magic", "detect x.png --magic", "scale x.png",
                                       "detect x.png --denoise magic", "detect x.png --keep -1"}) {
-    EXPECT_EQ(run(arguments).exit_code, 2) << arguments;
+    const auto result = run(arguments);
+    EXPECT_EQ(result.exit_code, 2) << arguments;
+    EXPECT_EQ(count_lines(result.err), 1U) << result.err;
   }
 }
 
