@@ -48,7 +48,7 @@ constexpr double kAboveCeiling = 2 * kCeiling;
 
 void add_doors(Scene& scene, View& view) {
   constexpr double kLintel = -0.95;
-  for (const double z : {2.3, 4.6}) {
+  for (const double z : {1.75, 3.9}) {
     scene.add(view.on_wall(-kHalfWidth, z, z * 1.42, kLintel, kUnderFloor),
               kWallCounts + view.vary(150));
     scene.add(view.on_wall(-kHalfWidth, z * 1.05, z * 1.35, kLintel + 0.08, kUnderFloor),
@@ -101,7 +101,7 @@ void add_pipes_and_lamps(Scene& scene, View& view) {
   for (const double z : {8.0, 4.6, 2.6}) {
     scene.add(view.level(kCeiling + 0.02, 0.1, 0.5, z, z * 1.3), kWallCounts + view.vary(700));
   }
-  const Point button = view(-kHalfWidth + 0.02, 0.05, 2.0);
+  const Point button = view(-kHalfWidth + 0.02, 0.05, 3.0);
   scene.add(ellipse(button, 4, 6), kWallCounts + view.vary(380));
 }
 

@@ -55,9 +55,8 @@ void add_mug(Scene& scene, Variation& vary) {
   const auto [x, y] = vary.shift(5);
   scene.add(band({x + 62, y + 196}, {x + 92, y + 206}, {x + 62, y + 226}, 6),
             kRoomCounts + vary.counts(100));
-  scene.add(polygon({{x + 26, y + 186}, {x + 66, y + 186}, {x + 62, y + 236}, {x + 30, y + 236}}),
+  scene.add(vessel({x + 26, y + 186}, {x + 66, y + 186}, {x + 46, y + 236}, 16, 5),
             kRoomCounts + vary.counts(170), 0, 1.2);
-  scene.add(ellipse({x + 46, y + 236}, 16, 5), kRoomCounts + vary.counts(185));
   scene.add(ellipse({x + 46, y + 186}, 20, 7), kRoomCounts + vary.counts(330));
 }
 
@@ -71,7 +70,7 @@ void add_bottle(Scene& scene, Variation& vary) {
 
 void add_small_things(Scene& scene, Variation& vary) {
   const auto [x, y] = vary.shift(6);
-  const Point keyboard{x + 150, y + 222};
+  const Point keyboard{x + 158, y + 222};
   scene.add(turned(rectangle(keyboard.x - 68, keyboard.y - 15, keyboard.x + 68, keyboard.y + 15, 4),
                    keyboard, vary.number(-0.04, 0.0)),
             kRoomCounts + vary.counts(110), 0.2, 0);

@@ -20,8 +20,10 @@ double exact_exp_negative(double x) {
   return value;
 }
 
+int kernel_radius(double sigma_px) { return static_cast<int>(std::ceil(4 * sigma_px)); }
+
 std::vector<double> gaussian_kernel(double sigma_px) {
-  const int radius = static_cast<int>(std::ceil(4 * sigma_px));
+  const int radius = kernel_radius(sigma_px);
   std::vector<double> kernel;
   double sum = 0;
   for (int i = -radius; i <= radius; ++i) {
@@ -83,8 +85,7 @@ void add_line(Point a, Point b, ImageView<double> coverage) {
 
 void paint(const Scene& scene, std::size_t index, Point origin, ImageView<double> coverage,
            ImageView<double> image) {
-  const Object& object = scene.objects()[index];
-  cover(object.outline, origin, coverage);
+  cover(scene.objects()[index].outline, origin, coverage);
   for (int y = 0; y < image.height(); ++y) {
     for (int x = 0; x < image.width(); ++x) {
       if (const double share = coverage(x, y); share > 0) {
@@ -93,6 +94,49 @@ void paint(const Scene& scene, std::size_t index, Point origin, ImageView<double
       }
     }
   }
+}
+
+// The blur works on samples: at blur 1 px a step lies within 0.01 px of its truth with two of them
+// a pixel, within 0.04 px with one.
+constexpr int kSubpixels = 2;
+// A frame is rendered in bands of rows, to bound the memory and to skip objects far from the band.
+constexpr int kBandRows = 64;
+
+// Average over the sub-pixels of each pixel.
+void shrink(ImageView<const double> fine, ImageView<float> pixels) {
+  for (int y = 0; y < pixels.height(); ++y) {
+    for (int x = 0; x < pixels.width(); ++x) {
+      double sum = 0;
+      for (int i = 0; i < kSubpixels * kSubpixels; ++i) {
+        sum += fine(x * kSubpixels + i % kSubpixels, y * kSubpixels + i / kSubpixels);
+      }
+      pixels(x, y) = static_cast<float>(sum / (kSubpixels * kSubpixels));
+    }
+  }
+}
+
+// Renders the rows from first_row on; `fine` is the scene in sub-pixels.
+void render_band(const Scene& fine, int first_row, double blur_px, ImageView<float> band) {
+  const int margin = kernel_radius(blur_px * kSubpixels);
+  const Point origin{-static_cast<double>(margin),
+                     static_cast<double>(first_row * kSubpixels - margin)};
+  Image<double> image(band.width() * kSubpixels + 2 * margin,
+                      band.height() * kSubpixels + 2 * margin);
+  Image<double> coverage(image.width(), image.height());
+  for (int y = 0; y < image.height(); ++y) {
+    for (int x = 0; x < image.width(); ++x) {
+      image(x, y) = fine.background_at({x + origin.x, y + origin.y});
+    }
+  }
+  for (std::size_t i = 0; i < fine.objects().size(); ++i) {
+    const Box& box = fine.box(i);
+    if (box.y_max > origin.y - 1 && box.y_min < origin.y + image.height()) {
+      paint(fine, i, origin, coverage, image);
+    }
+  }
+  blur(image, blur_px * kSubpixels);
+  shrink(image.view().crop(margin, margin, band.width() * kSubpixels, band.height() * kSubpixels),
+         band);
 }
 
 }  // namespace
@@ -148,21 +192,13 @@ void blur(ImageView<double> image, double sigma_px) {
 }
 
 Image<float> render_clean(const Scene& scene, int width, int height, double blur_px) {
-  const int margin = static_cast<int>(std::ceil(4 * blur_px));
-  const Point origin{-static_cast<double>(margin), -static_cast<double>(margin)};
-  Image<double> image(width + 2 * margin, height + 2 * margin);
-  Image<double> coverage(image.width(), image.height());
-  for (int y = 0; y < image.height(); ++y) {
-    for (int x = 0; x < image.width(); ++x) {
-      image(x, y) = scene.background_at({x + origin.x, y + origin.y});
-    }
-  }
-  for (std::size_t i = 0; i < scene.objects().size(); ++i) {
-    paint(scene, i, origin, coverage, image);
-  }
-  blur(image, blur_px);
+  Scene fine = scene;
+  constexpr double kFirstCentre = (kSubpixels - 1) / 2.0;
+  fine.transform(kSubpixels, kSubpixels, {kFirstCentre, kFirstCentre});
   Image<float> clean(width, height);
-  copy_pixels(image.view().crop(margin, margin, width, height), clean.view());
+  for (int y = 0; y < height; y += kBandRows) {
+    render_band(fine, y, blur_px, clean.view().crop(0, y, width, std::min(kBandRows, height - y)));
+  }
   return clean;
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <type_traits>
 
 #include "random.hpp"
 #include "render.hpp"
@@ -37,31 +38,60 @@ const NamedScene* find_scene(std::string_view name) {
   return found == kScenes.end() ? nullptr : found;
 }
 
-// A key of "sim:NAME?key=value", its range, and where its value goes.
+// An option, its range, and how it is read and written: by its key in "sim:NAME?key=value" and when
+// a scene is rendered.
 struct Key {
   std::string_view name;
   double min;
   double max;
   bool whole;
+  double (*get)(const SceneOptions& options);
   void (*set)(SceneOptions& options, double value);
 };
+
+template <auto kMember>
+constexpr Key scene_key(std::string_view name, double min, double max) {
+  using Value = std::remove_cvref_t<decltype(SceneOptions{}.*kMember)>;
+  return {name,
+          min,
+          max,
+          std::is_integral_v<Value>,
+          [](const SceneOptions& o) { return static_cast<double>(o.*kMember); },
+          [](SceneOptions& o, double value) { o.*kMember = static_cast<Value>(value); }};
+}
+
+template <auto kMember>
+constexpr Key camera_key(std::string_view name, double min, double max) {
+  using Value = std::remove_cvref_t<decltype(CameraOptions{}.*kMember)>;
+  return {name,
+          min,
+          max,
+          std::is_integral_v<Value>,
+          [](const SceneOptions& o) { return static_cast<double>(o.camera.*kMember); },
+          [](SceneOptions& o, double value) { o.camera.*kMember = static_cast<Value>(value); }};
+}
+
 constexpr std::array kKeys = {
-    Key{"seed", 0, 9e15, true,
-        [](SceneOptions& o, double v) { o.seed = static_cast<std::uint64_t>(v); }},
-    Key{"frames", 1, 1e6, true, [](SceneOptions& o, double v) { o.frames = static_cast<int>(v); }},
-    Key{"width", 16, 4096, true,
-        [](SceneOptions& o, double v) { o.camera.width = static_cast<int>(v); }},
-    Key{"height", 16, 4096, true,
-        [](SceneOptions& o, double v) { o.camera.height = static_cast<int>(v); }},
-    Key{"blur", 0, 20, false, [](SceneOptions& o, double v) { o.camera.blur_px = v; }},
-    Key{"sigma", 0, 5000, false, [](SceneOptions& o, double v) { o.camera.sigma_counts = v; }},
-    Key{"column_sigma", 0, 5000, false,
-        [](SceneOptions& o, double v) { o.camera.column_sigma_counts = v; }},
-    Key{"row_sigma", 0, 5000, false,
-        [](SceneOptions& o, double v) { o.camera.row_sigma_counts = v; }},
-    Key{"dead_pixels", 0, 10000, true,
-        [](SceneOptions& o, double v) { o.camera.dead_pixels = static_cast<int>(v); }},
+    scene_key<&SceneOptions::seed>("seed", 0, 9e15),
+    scene_key<&SceneOptions::frames>("frames", 1, 1e6),
+    camera_key<&CameraOptions::width>("width", 16, 4096),
+    camera_key<&CameraOptions::height>("height", 16, 4096),
+    camera_key<&CameraOptions::blur_px>("blur", 0, 20),
+    camera_key<&CameraOptions::sigma_counts>("sigma", 0, 5000),
+    camera_key<&CameraOptions::column_sigma_counts>("column_sigma", 0, 5000),
+    camera_key<&CameraOptions::row_sigma_counts>("row_sigma", 0, 5000),
+    camera_key<&CameraOptions::dead_pixels>("dead_pixels", 0, 10000),
 };
+
+bool allows(const Key& key, double value) {
+  return value >= key.min && value <= key.max && (!key.whole || value == std::floor(value));
+}
+
+std::string requirement(const Key& key) {
+  return std::string(" should be a ") + (key.whole ? "whole " : "") + "number from " +
+         std::to_string(static_cast<long long>(key.min)) + " to " +
+         std::to_string(static_cast<long long>(key.max));
+}
 
 Status apply(std::string_view setting, const std::string& spec, SceneOptions& options) {
   const auto equals = std::min(setting.find('='), setting.size());
@@ -76,14 +106,9 @@ Status apply(std::string_view setting, const std::string& spec, SceneOptions& op
     double value = 0;
     const char* end = text.data() + text.size();
     const auto [stop, error] = std::from_chars(text.data(), end, value);
-    const bool number = error == std::errc{} && stop == end;
-    if (!number || !(value >= key.min && value <= key.max) ||
-        (key.whole && value != std::floor(value))) {
+    if (error != std::errc{} || stop != end || !allows(key, value)) {
       return failure(ErrorCode::kInvalidArgument,
-                     spec + ": " + std::string(setting) + " should be a " +
-                         (key.whole ? "whole " : "") + "number from " +
-                         std::to_string(static_cast<long long>(key.min)) + " to " +
-                         std::to_string(static_cast<long long>(key.max)));
+                     spec + ": " + std::string(setting) + requirement(key));
     }
     key.set(options, value);
     return {};
@@ -93,27 +118,21 @@ Status apply(std::string_view setting, const std::string& spec, SceneOptions& op
 }
 
 Status check(const SceneOptions& options, int index) {
-  const CameraOptions& camera = options.camera;
-  const auto within = [](double value, double low, double high) {
-    return value >= low && value <= high;
-  };
+  const std::string scene = "sim:" + options.name;
   if (find_scene(options.name) == nullptr) {
     return failure(ErrorCode::kInvalidArgument,
-                   "sim:" + options.name + ": no such scene; there are " + list_of_scenes());
+                   scene + ": no such scene; there are " + list_of_scenes());
+  }
+  for (const Key& key : kKeys) {
+    if (!allows(key, key.get(options))) {
+      return failure(ErrorCode::kInvalidArgument,
+                     scene + ": " + std::string(key.name) + requirement(key));
+    }
   }
   if (index < 0 || index >= options.frames) {
-    return failure(ErrorCode::kInvalidArgument, "sim:" + options.name + ": frame " +
-                                                    std::to_string(index) + " of " +
-                                                    std::to_string(options.frames));
-  }
-  if (!within(camera.width, 16, 4096) || !within(camera.height, 16, 4096) ||
-      !within(camera.blur_px, 0, 20) || !within(camera.sigma_counts, 0, 5000) ||
-      !within(camera.column_sigma_counts, 0, 5000) || !within(camera.row_sigma_counts, 0, 5000) ||
-      !within(camera.dead_pixels, 0, 10000)) {
-    return failure(ErrorCode::kInvalidArgument,
-                   "sim:" + options.name +
-                       ": camera out of range (width and height 16 to 4096 px, blur 0 to 20 px, "
-                       "noise 0 to 5000 counts, dead pixels 0 to 10000)");
+    return failure(ErrorCode::kInvalidArgument, scene + ": there is no frame " +
+                                                    std::to_string(index) + "; frames are 0 to " +
+                                                    std::to_string(options.frames - 1));
   }
   return {};
 }
@@ -153,6 +172,7 @@ double least_step_counts(ImageView<const float> clean) {
 
 std::vector<std::string> scene_names() {
   std::vector<std::string> names;
+  names.reserve(kScenes.size());
   for (const NamedScene& scene : kScenes) {
     names.emplace_back(scene.name);
   }

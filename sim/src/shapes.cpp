@@ -89,6 +89,16 @@ Outline ellipse(Point centre, double radius_x, double radius_y) {
   return outline;
 }
 
+Outline vessel(Point rim_left, Point rim_right, Point bottom, double radius_x, double radius_y) {
+  Outline outline = {rim_left, rim_right};
+  for (const Point p : ellipse(bottom, radius_x, radius_y)) {
+    if (p.y >= bottom.y) {  // from the right end round to the left one
+      outline.push_back(p);
+    }
+  }
+  return outline;
+}
+
 Outline band(Point from, Point control, Point to, double width_px) {
   constexpr int kSteps = 3 * kCurveSteps;
   Outline left;
@@ -146,6 +156,7 @@ void Scene::transform(double scale_x, double scale_y, Point shift) {
   }
   background_.slope_x /= scale_x;
   background_.slope_y /= scale_y;
+  background_.counts -= background_.slope_x * shift.x + background_.slope_y * shift.y;
 }
 
 double Scene::background_at(Point p) const {

@@ -7,8 +7,8 @@
 
 namespace thermedge::sim {
 
-using Outline =
-    std::vector<Point>;  // closed, without repeating the first point; it does not cross itself
+// Closed, without repeating the first point; it does not cross itself.
+using Outline = std::vector<Point>;
 
 // Straight through the given points.
 [[nodiscard]] Outline polygon(std::vector<Point> points);
@@ -16,6 +16,10 @@ using Outline =
 [[nodiscard]] Outline rounded(const std::vector<Point>& points, double radius_px);
 [[nodiscard]] Outline rectangle(double x0, double y0, double x1, double y1, double radius_px = 0);
 [[nodiscard]] Outline ellipse(Point centre, double radius_x, double radius_y);
+// A round vessel seen from slightly above: straight sides down from the rim's ends, and the near
+// half of an ellipse as its bottom.
+[[nodiscard]] Outline vessel(Point rim_left, Point rim_right, Point bottom, double radius_x,
+                             double radius_y);
 // A band of constant width along a quadratic Bezier curve: cables, handles, pipes.
 [[nodiscard]] Outline band(Point from, Point control, Point to, double width_px);
 // Turned about a centre; the angle is given as its half's tangent, which keeps it exact.
@@ -42,9 +46,11 @@ class Scene {
 
   // Adds an object on top; its id is its number in the order of adding.
   void add(Outline outline, double counts, double slope_x = 0, double slope_y = 0);
+  // Maps the scene, its temperature gradients included, to p * scale + shift.
   void transform(double scale_x, double scale_y, Point shift);
 
   [[nodiscard]] const std::vector<Object>& objects() const { return objects_; }
+  [[nodiscard]] const Box& box(std::size_t object) const { return boxes_[object]; }
   [[nodiscard]] double background_at(Point p) const;
   [[nodiscard]] double object_at(std::size_t object, Point p) const;
   // The topmost object below `limit` that holds p; -1: the background.

@@ -33,9 +33,9 @@ TrueFrame rendered(const std::string& spec, int index = 0) {
 }
 
 TEST(Sim, GivesTheSameBitsOnEveryMachine) {
-  EXPECT_EQ(fingerprint(rendered("sim:desk").counts), 0x3adf08a04895a24aULL);
+  EXPECT_EQ(fingerprint(rendered("sim:desk").counts), 0xe238f6e343cf643aULL);
   EXPECT_EQ(fingerprint(rendered("sim:corridor?seed=5&frames=20&sigma=20", 19).counts),
-            0x93c82f526ccf1b24ULL);
+            0x77e01338361d232aULL);
 }
 
 TEST(Sim, VariesWithSeedAndFrame) {
@@ -76,20 +76,32 @@ TEST(Random, DeviatesAreNormalAndWhite) {
   EXPECT_GT(largest, 4.2);
 }
 
-TEST(Sim, NoiseIsWhatWasAskedFor) {
+TEST(Sim, NoiseIsWhiteNormalAndAsStrongAsAskedFor) {
   const auto frame = rendered("sim:desk?sigma=20&column_sigma=0&row_sigma=0&dead_pixels=0");
-  double sum = 0;
-  double squares = 0;
-  for (int y = 0; y < frame.counts.height(); ++y) {
-    for (int x = 0; x < frame.counts.width(); ++x) {
-      const double noise = double{static_cast<double>(frame.counts(x, y))} - frame.clean(x, y);
-      sum += noise;
-      squares += noise * noise;
+  const auto noise = [&](int x, int y) {
+    return (static_cast<double>(frame.counts(x, y)) - double{frame.clean(x, y)}) / 20;
+  };
+  double mean = 0;
+  double variance = 0;
+  double kurtosis = 0;
+  double across = 0;
+  double down = 0;
+  for (int y = 0; y + 1 < frame.counts.height(); ++y) {
+    for (int x = 0; x + 1 < frame.counts.width(); ++x) {
+      const double value = noise(x, y);
+      mean += value;
+      variance += value * value;
+      kurtosis += value * value * value * value;
+      across += value * noise(x + 1, y);
+      down += value * noise(x, y + 1);
     }
   }
-  const auto count = static_cast<double>(frame.counts.size());
-  EXPECT_NEAR(sum / count, 0, 0.2);
-  EXPECT_NEAR(std::sqrt(squares / count), 20, 0.2);
+  const double count = (frame.counts.width() - 1) * (frame.counts.height() - 1);
+  EXPECT_NEAR(mean / count, 0, 0.01);
+  EXPECT_NEAR(std::sqrt(variance / count), 1, 0.01);
+  EXPECT_NEAR(kurtosis / count, 3, 0.06);
+  EXPECT_NEAR(across / count, 0, 0.01);
+  EXPECT_NEAR(down / count, 0, 0.01);
 }
 
 TEST(Sim, FixedPatternStaysAndNoiseChanges) {
@@ -106,15 +118,49 @@ TEST(Sim, FixedPatternStaysAndNoiseChanges) {
   EXPECT_GE(same, first.counts.width() - 4);
 }
 
-TEST(Sim, DeadPixelsAreStuck) {
-  const auto frame = rendered("sim:corridor?dead_pixels=9");
-  int stuck = 0;
-  for (int y = 0; y < frame.counts.height(); ++y) {
-    for (int x = 0; x < frame.counts.width(); ++x) {
-      stuck += frame.counts(x, y) == 0 || frame.counts(x, y) == 16383 ? 1 : 0;
+TEST(Sim, DeadPixelsAreStuckAndAsManyAsAskedFor) {
+  for (const int wanted : {0, 9, 250}) {
+    for (const int seed : {1, 2, 3}) {
+      const auto frame =
+          rendered("sim:corridor?width=16&height=16&dead_pixels=" + std::to_string(wanted) +
+                   "&seed=" + std::to_string(seed));
+      int lowest = 0;
+      int highest = 0;
+      for (int y = 0; y < frame.counts.height(); ++y) {
+        for (int x = 0; x < frame.counts.width(); ++x) {
+          lowest += frame.counts(x, y) == 0 ? 1 : 0;
+          highest += frame.counts(x, y) == 16383 ? 1 : 0;
+        }
+      }
+      EXPECT_EQ(lowest, (wanted + 1) / 2);
+      EXPECT_EQ(highest, wanted / 2);
     }
   }
-  EXPECT_EQ(stuck, 9);
+}
+
+TEST(Sim, LiesAmongTheLevelsOfARealCamera) {
+  for (const std::string name : {"desk", "corridor"}) {
+    const auto frame = rendered("sim:" + name);
+    for (int y = 0; y < frame.clean.height(); ++y) {
+      for (int x = 0; x < frame.clean.width(); ++x) {
+        EXPECT_GT(frame.clean(x, y), 2000);
+        EXPECT_LT(frame.clean(x, y), 3600);
+      }
+    }
+  }
+}
+
+TEST(Scene, TakesItsTemperaturesAlongWhenTransformed) {
+  Scene scene(1000, 2, 3);
+  scene.add(rectangle(10, 10, 30, 20), 1500, -1, 4);
+  Scene moved = scene;
+  moved.transform(2, 3, {5, -7});
+  for (const Point p : {Point{0, 0}, Point{12, 17}, Point{40, 3}}) {
+    const Point q{2 * p.x + 5, 3 * p.y - 7};
+    EXPECT_NEAR(moved.background_at(q), scene.background_at(p), 1e-9);
+    EXPECT_NEAR(moved.object_at(0, q), scene.object_at(0, p), 1e-9);
+    EXPECT_EQ(moved.topmost_below(1, q), scene.topmost_below(1, p));
+  }
 }
 
 TEST(Cover, IsExactForStraightSides) {
@@ -160,11 +206,21 @@ TEST(Blur, KeepsTheSum) {
   EXPECT_NEAR(std::sqrt(spread / sum), 1.3, 0.01);
 }
 
+// Where row y of the picture crosses `level`, between pixels.
+double crossing(ImageView<const float> image, int y, double level) {
+  int x = 0;
+  while (double{image(x + 1, y)} < level) {
+    ++x;
+  }
+  return x + (level - double{image(x, y)}) / (double{image(x + 1, y)} - double{image(x, y)});
+}
+
 TEST(Truth, LiesWhereTheBlurredStepIs) {
   for (const double position : {20.0, 20.3, 20.77}) {
     Scene scene(1000, 0, 0);
     scene.add(polygon({{position, -50}, {90, -50}, {90, 90}, {position, 90}}), 1400);
     const Image<float> clean = render_clean(scene, 40, 30, 1.0);
+    EXPECT_NEAR(crossing(clean, 15, 1200), position, 0.02);
     // Blur moves no energy across the step: what is missing to the right's level sums up to it.
     double missing = 0;
     for (int x = 0; x < clean.width(); ++x) {
@@ -178,6 +234,53 @@ TEST(Truth, LiesWhereTheBlurredStepIs) {
       EXPECT_EQ(p.x, position);
     }
   }
+}
+
+TEST(Truth, LiesOnASlantedStepAtEveryRow) {
+  // The half plane x >= 15 + 0.3 y.
+  Scene scene(1000, 0, 0);
+  scene.add(polygon({{0, -50}, {150, -50}, {150, 100}, {45, 100}}), 1400);
+  const Image<float> clean = render_clean(scene, 50, 40, 1.0);
+  for (int y = 0; y < clean.height(); ++y) {
+    EXPECT_NEAR(crossing(clean, y, 1200), 15 + 0.3 * y, 0.02);
+  }
+  for (const TrueEdge& edge : true_edges(scene, 50, 40, 10)) {
+    for (const Point p : edge.points) {
+      EXPECT_NEAR(p.x, 15 + 0.3 * p.y, 1e-9);
+    }
+  }
+}
+
+TEST(Truth, MovesWithTheHand) {
+  const std::string spec = "sim:desk?frames=9&sigma=0&column_sigma=0&row_sigma=0";
+  const auto first = rendered(spec, 0);
+  const auto last = rendered(spec, 8);
+  const auto charger = [](const TrueFrame& frame) {
+    const TrueEdge* found = nullptr;
+    for (const TrueEdge& edge : frame.edges) {
+      found = edge.closed && (found == nullptr || edge.object > found->object) ? &edge : found;
+    }
+    return *found;
+  };
+  const TrueEdge before = charger(first);
+  const TrueEdge behind = charger(last);
+  ASSERT_EQ(before.object, behind.object);
+  ASSERT_EQ(before.points.size(), behind.points.size());
+  const double dx = behind.points[0].x - before.points[0].x;
+  const double dy = behind.points[0].y - before.points[0].y;
+  EXPECT_GT(std::hypot(dx, dy), 0.5);
+  EXPECT_LT(std::hypot(dx, dy), 9);
+  for (std::size_t i = 0; i < before.points.size(); ++i) {
+    EXPECT_NEAR(behind.points[i].x - before.points[i].x, dx, 1e-9);
+    EXPECT_NEAR(behind.points[i].y - before.points[i].y, dy, 1e-9);
+  }
+}
+
+TEST(Truth, LeavesOutStepsThatNobodyCouldSee) {
+  Scene scene(1000, 0, 0);
+  scene.add(rectangle(10, 10, 30, 30), 1009);
+  EXPECT_TRUE(true_edges(scene, 40, 40, 10).empty());
+  EXPECT_EQ(true_edges(scene, 40, 40, 8).size(), 1U);
 }
 
 TEST(Truth, EndsWhereAnotherObjectHidesIt) {
@@ -246,11 +349,39 @@ TEST(ParseScene, NamesWhatIsWrong) {
   EXPECT_EQ(message("sim:desk?sigma"), "sim:desk?sigma: sigma should be a number from 0 to 5000");
 }
 
-TEST(Render, RefusesWhatIsOutOfRange) {
+TEST(ParseScene, ReadsEveryKey) {
+  const auto options = parse_scene(
+      "sim:corridor?seed=3&frames=20&width=64&height=48&blur=0.5&sigma=20&column_sigma=2&"
+      "row_sigma=3&dead_pixels=7");
+  ASSERT_TRUE(options) << options.error().message;
+  EXPECT_EQ(options->name, "corridor");
+  EXPECT_EQ(options->seed, 3U);
+  EXPECT_EQ(options->frames, 20);
+  EXPECT_EQ(options->camera.width, 64);
+  EXPECT_EQ(options->camera.height, 48);
+  EXPECT_EQ(options->camera.blur_px, 0.5);
+  EXPECT_EQ(options->camera.sigma_counts, 20);
+  EXPECT_EQ(options->camera.column_sigma_counts, 2);
+  EXPECT_EQ(options->camera.row_sigma_counts, 3);
+  EXPECT_EQ(options->camera.dead_pixels, 7);
+}
+
+TEST(Render, NamesWhatIsOutOfRange) {
+  const auto message = [](const SceneOptions& options, int index) {
+    const auto frame = render(options, index);
+    return frame ? "" : frame.error().message;
+  };
   SceneOptions options;
   options.camera.width = 8;
-  EXPECT_FALSE(render(options, 0));
-  EXPECT_FALSE(render(SceneOptions{}, 1));
+  EXPECT_EQ(message(options, 0), "sim:desk: width should be a whole number from 16 to 4096");
+  options = {};
+  options.camera.blur_px = std::nan("");
+  EXPECT_EQ(message(options, 0), "sim:desk: blur should be a number from 0 to 20");
+  options = {};
+  options.name = "magic";
+  EXPECT_EQ(message(options, 0), "sim:magic: no such scene; there are desk, corridor");
+  EXPECT_EQ(message({}, 1), "sim:desk: there is no frame 1; frames are 0 to 0");
+  EXPECT_EQ(message({}, -1), "sim:desk: there is no frame -1; frames are 0 to 0");
 }
 
 }  // namespace

@@ -15,19 +15,19 @@ namespace thermedge::sim {
 // same over a sequence.
 struct CameraOptions {
   int width = 382;                   // px, 16..4096
-  int height = 288;                  // px
-  double blur_px = 1.0;              // standard deviation of the optical blur, px
-  double sigma_counts = 5.8;         // temporal noise of a pixel, counts
-  double column_sigma_counts = 1.2;  // fixed column pattern, counts
-  double row_sigma_counts = 0.9;     // fixed row pattern, counts
-  int dead_pixels = 5;               // stuck at 0 or at the largest count
+  int height = 288;                  // px, 16..4096
+  double blur_px = 1.0;              // standard deviation of the optical blur, px, 0..20
+  double sigma_counts = 5.8;         // temporal noise of a pixel, counts, 0..5000
+  double column_sigma_counts = 1.2;  // fixed column pattern, counts, 0..5000
+  double row_sigma_counts = 0.9;     // fixed row pattern, counts, 0..5000
+  int dead_pixels = 5;               // stuck at 0 or at the largest count, 0..10000
 };
 
 struct SceneOptions {
   std::string name = "desk";  // "desk" (monitor, laptop, mug, phone, charger), "corridor" (walls,
                               // doors, pipes, lamps)
-  std::uint64_t seed = 1;  // noise, fixed pattern and small variations of the objects
-  int frames = 1;          // the camera moves by hand from frame to frame, a few px
+  std::uint64_t seed = 1;     // noise, fixed pattern and small variations of the objects, 0..9e15
+  int frames = 1;             // 1..1e6; the camera moves by hand from frame to frame, a few px
   CameraOptions camera;
 };
 
