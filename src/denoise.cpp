@@ -1,0 +1,141 @@
+#include "thermedge/denoise.hpp"
+
+#include <bit>
+#include <cmath>
+#include <new>
+#include <string>
+
+#include "denoise_bm3d.hpp"
+#include "denoise_frame.hpp"
+#include "denoise_gaussian.hpp"
+#include "denoise_nlm.hpp"
+#include "thermedge/options.hpp"
+
+namespace thermedge {
+namespace {
+
+Status check_odd(int value, const std::string& name) {
+  return value % 2 == 1 ? Status{}
+                        : failure(ErrorCode::kInvalidArgument,
+                                  name + " = " + std::to_string(value) + ": must be odd");
+}
+
+Status check_power_of_two(int value, const std::string& name) {
+  return std::has_single_bit(static_cast<unsigned>(value))
+             ? Status{}
+             : failure(ErrorCode::kInvalidArgument,
+                       name + " = " + std::to_string(value) + ": must be 1, 2, 4, 8, 16 or 32");
+}
+
+Status check_sigma_px(double sigma_px) {
+  return sigma_px == 0 || sigma_px >= 0.3
+             ? Status{}
+             : failure(ErrorCode::kInvalidArgument,
+                       "denoise.gaussian.sigma_px = " + std::to_string(sigma_px) +
+                           ": must be 0 (the 5x5 kernel) or 0.3 to 20");
+}
+
+Status check_denoise_options(const DenoiseOptions& options) {
+  if (Status status = check_ranges(options, "denoise."); !status) {
+    return status;
+  }
+  for (const Status& status :
+       {check_sigma_px(options.gaussian.sigma_px),
+        check_odd(options.nlm.patch_px, "denoise.nlm.patch_px"),
+        check_odd(options.nlm.search_px, "denoise.nlm.search_px"),
+        check_power_of_two(options.bm3d.group_hard, "denoise.bm3d.group_hard"),
+        check_power_of_two(options.bm3d.group_wiener, "denoise.bm3d.group_wiener")}) {
+    if (!status) {
+      return status;
+    }
+  }
+  return {};
+}
+
+Status check_input(ImageView<const float> in, ImageView<float> out) {
+  if (in.empty()) {
+    return failure(ErrorCode::kInvalidArgument, "frame is empty; it needs at least one pixel");
+  }
+  if (!same_size(in, out)) {
+    return failure(ErrorCode::kInvalidArgument, "result has another size than the frame");
+  }
+  return detail::check_finite(in);
+}
+
+Status check_sigma(double sigma) {
+  return sigma >= 0 && std::isfinite(sigma)
+             ? Status{}
+             : failure(ErrorCode::kInvalidArgument,
+                       "sigma = " + std::to_string(sigma) + ": must be finite and not negative");
+}
+
+}  // namespace
+
+struct Denoiser::Impl {
+  explicit Impl(const DenoiseOptions& chosen)
+      : options(chosen), options_status(check_denoise_options(chosen)) {}
+
+  Status run(ImageView<const float> in, double sigma, ImageView<float> out, Runner& runner) {
+    switch (options.method) {
+      case DenoiseMethod::kNone:
+        copy_pixels(in, out);
+        return {};
+      case DenoiseMethod::kGaussian:
+        gaussian.run(in, out, runner);
+        return {};
+      case DenoiseMethod::kNlm:
+        return run_in_noise_units(nlm, in, sigma, out, runner);
+      case DenoiseMethod::kBm3d:
+        return run_in_noise_units(bm3d, in, sigma, out, runner);
+    }
+    return failure(ErrorCode::kInvalidArgument,
+                   "denoise.method: must be none, gaussian, nlm or bm3d");
+  }
+
+  template <class Filter>
+  static Status run_in_noise_units(Filter& filter, ImageView<const float> in, double sigma,
+                                   ImageView<float> out, Runner& runner) {
+    if (Status status = check_sigma(sigma); !status) {
+      return status;
+    }
+    // Noise far below the resolution of a float cannot be removed, only overflow.
+    constexpr double kLeastNoise = 1e-15;
+    const detail::FrameRange range = detail::frame_range(in);
+    if (range.deviation == 0 || sigma <= kLeastNoise * range.deviation) {
+      copy_pixels(in, out);
+    } else {
+      filter.run(in, {range.mean, sigma}, out, runner);
+    }
+    return {};
+  }
+
+  DenoiseOptions options;
+  Status options_status;
+  detail::GaussianFilter gaussian{options.gaussian};
+  detail::NonLocalMeans nlm{options.nlm};
+  detail::Bm3d bm3d{options.bm3d};
+};
+
+Denoiser::Denoiser(const DenoiseOptions& options) : impl_(std::make_unique<Impl>(options)) {}
+Denoiser::Denoiser(Denoiser&&) noexcept = default;
+Denoiser& Denoiser::operator=(Denoiser&&) noexcept = default;
+Denoiser::~Denoiser() = default;
+
+Status Denoiser::run(ImageView<const float> in, double sigma, ImageView<float> out,
+                     Runner& runner) {
+  if (!impl_->options_status) {
+    return impl_->options_status;
+  }
+  if (Status status = check_input(in, out); !status) {
+    return status;
+  }
+  try {
+    return impl_->run(in, sigma, out, runner);
+  } catch (const std::bad_alloc&) {
+    return failure(ErrorCode::kOutOfMemory, "denoise: out of memory for a frame of " +
+                                                std::to_string(in.width()) + " x " +
+                                                std::to_string(in.height()) + " pixels");
+  }
+}
+
+}  // namespace thermedge

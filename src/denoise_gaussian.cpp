@@ -1,0 +1,67 @@
+#include "denoise_gaussian.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "denoise_frame.hpp"
+#include "denoise_math.hpp"
+#include "simd/gaussian.hpp"
+
+namespace thermedge::detail {
+namespace {
+
+constexpr int kRowsPerTask = 16;
+
+}  // namespace
+
+int GaussianFilter::radius() const {
+  return options_.sigma_px == 0 ? kPaperKernelRadius
+                                : static_cast<int>(std::ceil(4 * options_.sigma_px));
+}
+
+void GaussianFilter::make_weights() {
+  const auto reach = static_cast<std::size_t>(radius());
+  const double scale = -0.5 / (options_.sigma_px * options_.sigma_px);
+  double sum = 1;
+  for (std::size_t i = 1; i <= reach; ++i) {
+    sum += 2 * portable_exp(scale * static_cast<double>(i * i));
+  }
+  weights_.resize(reach + 1);
+  for (std::size_t i = 0; i <= reach; ++i) {
+    weights_[i] = static_cast<float>(portable_exp(scale * static_cast<double>(i * i)) / sum);
+  }
+}
+
+void GaussianFilter::filter_row(int y, float* columns, float* result) const {
+  const int reach = radius();
+  const int width = padded_.width() - 2 * reach;
+  const float* centre = padded_.row(y + reach);
+  if (options_.sigma_px == 0) {
+    return paper_kernel_row(centre + reach, padded_.stride(), width, result);
+  }
+  smooth_row(centre, padded_.stride(), weights_.data(), reach, padded_.width(), columns);
+  smooth_row(columns + reach, 1, weights_.data(), reach, width, result);
+}
+
+void GaussianFilter::run(ImageView<const float> in, ImageView<float> out, Runner& runner) {
+  if (weights_.empty() && options_.sigma_px > 0) {
+    make_weights();
+  }
+  const int reach = radius();
+  const int tasks = (in.height() + kRowsPerTask - 1) / kRowsPerTask;
+  padded_.resize(in.width() + 2 * reach, in.height() + 2 * reach);
+  rows_.resize(padded_.width(), 2 * tasks);
+  for (int y = 0; y < padded_.height(); ++y) {
+    mirrored_row(in, {}, y - reach, reach, padded_.width(), padded_.row(y));
+  }
+  runner.run(tasks, [&](int task) {
+    const int end = std::min((task + 1) * kRowsPerTask, out.height());
+    for (int y = task * kRowsPerTask; y < end; ++y) {
+      float* result = rows_.row(2 * task + 1);
+      filter_row(y, rows_.row(2 * task), result);
+      std::copy_n(result, out.width(), out.row(y));
+    }
+  });
+}
+
+}  // namespace thermedge::detail

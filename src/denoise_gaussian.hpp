@@ -1,0 +1,28 @@
+// Gaussian smoothing: the 5x5 kernel of eq. 5, or any sigma.
+#pragma once
+
+#include <vector>
+
+#include "thermedge/denoise.hpp"
+
+namespace thermedge::detail {
+
+class GaussianFilter {
+ public:
+  explicit GaussianFilter(const GaussianOptions& options) : options_(options) {}
+
+  // `out` may be `in`.
+  void run(ImageView<const float> in, ImageView<float> out, Runner& runner);
+
+ private:
+  [[nodiscard]] int radius() const;
+  void make_weights();
+  void filter_row(int y, float* columns, float* result) const;
+
+  GaussianOptions options_;
+  std::vector<float> weights_;  // of the distances 0, 1, 2 ...; their sum over both sides is 1
+  Image<float> padded_;         // the frame with mirrored margins of the kernel's radius
+  Image<float> rows_;           // two rows of scratch for each task
+};
+
+}  // namespace thermedge::detail
