@@ -58,7 +58,11 @@ TEST_P(EveryDenoiser, GivesTheSameEdgesForAllThreadCountsAndSimdTargets) {
 
 INSTANTIATE_TEST_SUITE_P(All, EveryDenoiser,
                          testing::Values(DenoiseMethod::kNone, DenoiseMethod::kGaussian,
-                                         DenoiseMethod::kNlm, DenoiseMethod::kBm3d));
+                                         DenoiseMethod::kNlm, DenoiseMethod::kBm3d),
+                         [](const auto& method) {
+                           return std::string(
+                               kDenoiseMethods[static_cast<std::size_t>(method.param)].name);
+                         });
 
 TEST(Detector, GivesTheSameForAFrameAgain) {
   const auto frame = small_desk(6);

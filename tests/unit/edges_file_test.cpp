@@ -65,7 +65,7 @@ TEST(EdgesJson, RoundsPointsToAThousandth) {
 TEST(EdgesJson, IsOneLineWhateverTheName) {
   const std::string text = edges_to_json(two_edges(), {"a\"\n\xff.png", "paper"});
   EXPECT_EQ(text.find('\n'), text.size() - 1);
-  EXPECT_NO_THROW((void)nlohmann::json::parse(text));
+  EXPECT_TRUE(nlohmann::json::accept(text));
 }
 
 TEST(EdgesSvg, DrawsClosedPathsAndEscapesNames) {
