@@ -102,6 +102,7 @@ struct Denoiser::Impl {
     constexpr double kLeastNoise = 1e-15;
     const detail::FrameRange range = detail::frame_range(in);
     if (range.deviation == 0 || sigma <= kLeastNoise * range.deviation) {
+      filter.prepare(in.width(), in.height());  // so that a flat first frame counts as one
       copy_pixels(in, out);
     } else {
       filter.run(in, {range.mean, sigma}, out, runner);

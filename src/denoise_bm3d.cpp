@@ -73,9 +73,9 @@ Accumulator Bm3d::accumulator(int index) {
   return {rows_of_band(band_sums_), rows_of_band(band_weights_), band(index).first_row};
 }
 
-void Bm3d::resize(ImageView<const float> in) {
-  width_ = std::max(in.width(), kBlockPx);
-  height_ = std::max(in.height(), kBlockPx);
+void Bm3d::prepare(int width, int height) {
+  width_ = std::max(width, kBlockPx);
+  height_ = std::max(height, kBlockPx);
   const int reference_rows = reference_count(height_, options_.step_px);
   bands_ = (reference_rows + kReferenceRowsPerBand - 1) / kReferenceRowsPerBand;
   band_rows_ = 0;
@@ -199,7 +199,7 @@ void Bm3d::run_stage(Stage stage, Runner& runner) {
 
 void Bm3d::run(ImageView<const float> in, const NoiseUnits& units, ImageView<float> out,
                Runner& runner) {
-  resize(in);
+  prepare(in.width(), in.height());
   load(in, units, runner);
   run_stage(Stage::kHard, runner);
   if (options_.wiener) {

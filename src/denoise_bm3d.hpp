@@ -18,6 +18,9 @@ class Bm3d {
  public:
   explicit Bm3d(const Bm3dOptions& options);
 
+  // Makes the scratch memory for frames of this size, which run() would make otherwise.
+  void prepare(int width, int height);
+
   // `out` may be `in`.
   void run(ImageView<const float> in, const NoiseUnits& units, ImageView<float> out,
            Runner& runner);
@@ -31,7 +34,6 @@ class Bm3d {
     int end_row = 0;
   };
 
-  void resize(ImageView<const float> in);
   void quantise_row(const float* values, int y);
   void load(ImageView<const float> in, const NoiseUnits& units, Runner& runner);
   void run_stage(Stage stage, Runner& runner);

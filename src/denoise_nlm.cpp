@@ -10,6 +10,8 @@ namespace {
 
 constexpr int kRowsPerTask = 16;
 
+int tasks_for(int rows) { return (rows + kRowsPerTask - 1) / kRowsPerTask; }
+
 // Distances are 16-bit sums that stop at their largest value, so levels are as fine as lets that
 // value stand for a weight of e^-16, which is as good as none.
 double levels_per_sigma(double patch_weight, double h) {
@@ -19,13 +21,20 @@ double levels_per_sigma(double patch_weight, double h) {
 
 }  // namespace
 
+void NonLocalMeans::prepare(int width, int height) {
+  const int margin = options_.search_px / 2 + options_.patch_px / 2;
+  values_.resize(width + 2 * margin, height + 2 * margin);
+  levels_.resize(values_.width(), values_.height());
+  boxes_.resize(values_.width() + kNlmSlack,
+                tasks_for(height) * nlm_box_rows(kRowsPerTask, options_.patch_px));
+  sums_.resize(width + kNlmSlack, height);
+  weights_.resize(width + kNlmSlack, height);
+}
+
 void NonLocalMeans::pad(ImageView<const float> in, const NoiseUnits& units, double levels_per_sigma,
                         Runner& runner) {
   const int margin = options_.search_px / 2 + options_.patch_px / 2;
-  values_.resize(in.width() + 2 * margin, in.height() + 2 * margin);
-  levels_.resize(values_.width(), values_.height());
-  const int tasks = (values_.height() + kRowsPerTask - 1) / kRowsPerTask;
-  runner.run(tasks, [&](int task) {
+  runner.run(tasks_for(values_.height()), [&](int task) {
     const int end = std::min((task + 1) * kRowsPerTask, values_.height());
     for (int y = task * kRowsPerTask; y < end; ++y) {
       float* values = values_.row(y);
@@ -43,18 +52,15 @@ void NonLocalMeans::run(ImageView<const float> in, const NoiseUnits& units, Imag
   const double half = nlm_patch_half(options_.patch_px);
   const double patch_weight = half * half * half * half;
   const double levels = levels_per_sigma(patch_weight, options_.h_over_sigma);
+  prepare(in.width(), in.height());
   pad(in, units, levels, runner);
-  const int tasks = (in.height() + kRowsPerTask - 1) / kRowsPerTask;
   const int box_rows = nlm_box_rows(kRowsPerTask, options_.patch_px);
-  boxes_.resize(values_.width() + kNlmSlack, tasks * box_rows);
-  sums_.resize(in.width() + kNlmSlack, in.height());
-  weights_.resize(in.width() + kNlmSlack, in.height());
   // In units of distance: what noise, that of rounding (variance 1/12) included, adds, and h^2.
   const double noise = patch_weight * 2 * (levels * levels + 1.0 / 12);
   const double h = levels * options_.h_over_sigma;
   const NlmWeights weigh{static_cast<float>(noise), static_cast<float>(1 / (patch_weight * h * h))};
 
-  runner.run(tasks, [&](int task) {
+  runner.run(tasks_for(in.height()), [&](int task) {
     const int y = task * kRowsPerTask;
     const int rows = std::min(kRowsPerTask, in.height() - y);
     const NlmBand band{values_.view(),

@@ -16,6 +16,9 @@ class NonLocalMeans {
  public:
   explicit NonLocalMeans(const NlmOptions& options) : options_(options) {}
 
+  // Makes the scratch memory for frames of this size, which run() would make otherwise.
+  void prepare(int width, int height);
+
   // `out` may be `in`.
   void run(ImageView<const float> in, const NoiseUnits& units, ImageView<float> out,
            Runner& runner);

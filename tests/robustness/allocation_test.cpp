@@ -86,16 +86,18 @@ TEST_P(AllocationOf, ADetectorIsNoneAfterTheSecondFrame) {
   }
 }
 
+std::string name_of(const testing::TestParamInfo<std::tuple<DenoiseMethod, int>>& test) {
+  const auto [method, threads] = test.param;
+  return std::string(kDenoiseMethods[static_cast<std::size_t>(method)].name) + "_" +
+         std::to_string(threads) + "_threads";
+}
+
 INSTANTIATE_TEST_SUITE_P(
     All, AllocationOf,
     testing::Combine(testing::Values(DenoiseMethod::kNone, DenoiseMethod::kGaussian,
                                      DenoiseMethod::kNlm, DenoiseMethod::kBm3d),
                      testing::Values(1, 2)),
-    [](const auto& test) {
-      const auto& [method, threads] = test.param;
-      return std::string(kDenoiseMethods[static_cast<std::size_t>(method)].name) + "_" +
-             std::to_string(threads) + "_threads";
-    });
+    name_of);
 
 TEST(Allocation, TheCounterCounts) {
   const long before = allocations;
