@@ -9,6 +9,7 @@ for scene in desk corridor; do
   for sigma in 6 20; do
     spec="sim:$scene?sigma=$sigma"
     dir="$out/${scene}_sigma$sigma"
+    mkdir -p "$dir"
     echo "== $spec"
     "$thermedge" scale "$spec" -o "$dir/frame.png"
     "$thermedge" detect "$spec" -o "$dir" --write mask,overlay,json,svg

@@ -26,8 +26,8 @@ class ImageView {
 
   // A view of mutable pixels converts to a view of constant ones.
   template <class U>
-    requires(std::is_const_v<T> && std::is_same_v<const U, T>)
-  constexpr ImageView(ImageView<U> other)  // NOLINT(google-explicit-constructor)
+  requires(std::is_const_v<T>&& std::is_same_v<const U, T>) constexpr ImageView(
+      ImageView<U> other)  // NOLINT(google-explicit-constructor)
       : ImageView(other.data(), other.width(), other.height(), other.stride()) {}
 
   [[nodiscard]] constexpr T* data() const { return data_; }
@@ -115,8 +115,8 @@ class Image {
     const std::size_t needed = stride * static_cast<std::size_t>(height);
     if (needed > capacity_) {
       release();
-      data_ = static_cast<T*>(
-          ::operator new(needed * sizeof(T), std::align_val_t{kAlignmentBytes}));
+      data_ =
+          static_cast<T*>(::operator new (needed * sizeof(T), std::align_val_t{kAlignmentBytes}));
       capacity_ = needed;
       std::fill_n(data_, needed, T{});
     }
@@ -158,7 +158,7 @@ class Image {
     return padded / sizeof(T);
   }
   void release() {
-    ::operator delete(data_, std::align_val_t{kAlignmentBytes});
+    ::operator delete (data_, std::align_val_t{kAlignmentBytes});
     data_ = nullptr;
     capacity_ = 0;
   }

@@ -9,7 +9,7 @@
 namespace thermedge {
 
 struct Limits {
-  int max_side_px = 16384;                        // width and height, px
+  int max_side_px = 16384;                         // width and height, px
   std::uint64_t max_bytes = 512ULL * 1024 * 1024;  // one decoded picture, or one file in memory
 };
 

@@ -36,8 +36,8 @@ struct SourceOptions {
 class FrameSource {
  public:
   virtual ~FrameSource() = default;
-  // Reads the next frame into `frame` (its memory is reused). true: a frame; false: the end. After an
-  // error, the next call goes on behind the bad file.
+  // Reads the next frame into `frame` (its memory is reused). true: a frame; false: the end. After
+  // an error, the next call goes on behind the bad file.
   [[nodiscard]] virtual Result<bool> next(Frame& frame) = 0;
   // Number of files or frames there will be, as far as known; 0: not known.
   [[nodiscard]] virtual std::size_t size_hint() const = 0;
