@@ -213,7 +213,7 @@ void keep_nearest(MatchScratch& scratch, int candidates, int count, std::uint32_
       keys[kept++] = std::uint32_t{distances[i]} << 16 | indices[i];
     }
   }
-  std::sort(keys, keys + count);
+  std::sort(keys, keys + kept);
 }
 
 void match_blocks(const MatchGuide& guide, BlockPosition reference, const SearchWindow& window,
