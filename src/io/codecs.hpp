@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "thermedge/image.hpp"
@@ -33,6 +34,19 @@ struct EncodedFile {
 [[nodiscard]] Result<std::size_t> count_tiff_pages(const EncodedFile& file);
 [[nodiscard]] Result<std::size_t> count_npy_pages(const EncodedFile& file);
 
+// Checks what a header claims: the size against the limits, for pixels that take
+// `bytes_per_pixel` on the way to counts, and that a file of so few bytes can hold it.
+[[nodiscard]] Status check_claim(const EncodedFile& file, std::uint64_t width, std::uint64_t height,
+                                 std::uint64_t bytes_per_pixel);
+
+// Words out of a file, fit for a message: one line, and no commands to a terminal.
+[[nodiscard]] std::string printable(std::string_view text);
+
+// "NAME: damaged FORMAT: what", of which `what` may come from the file.
+[[nodiscard]] tl::unexpected<Error> damaged(const EncodedFile& file, std::string_view format,
+                                            std::string_view what);
+[[nodiscard]] tl::unexpected<Error> no_such_page(const EncodedFile& file, std::size_t page);
+
 // A picture to encode: rows of `channels` samples of `bits` bits (8 or 16, native byte order).
 struct Samples {
   const void* data = nullptr;
@@ -46,7 +60,7 @@ struct Samples {
     return static_cast<const std::byte*>(data) + static_cast<std::size_t>(y) * row_bytes;
   }
   [[nodiscard]] std::size_t packed_row_bytes() const {
-    return static_cast<std::size_t>(width) * channels * (bits / 8);
+    return static_cast<std::size_t>(width) * static_cast<std::size_t>(channels * bits / 8);
   }
 };
 
@@ -55,9 +69,11 @@ struct Samples {
 [[nodiscard]] Result<std::string> encode_tiff(const Samples& samples, const std::string& name);
 [[nodiscard]] std::string encode_pgm(const Samples& samples);
 [[nodiscard]] std::string encode_npy(const Samples& samples);
-[[nodiscard]] std::string encode_raw(const Samples& samples);
 
-// Widens packed samples of 1 or 2 bytes into the frame; `big_endian` says how the 2 bytes lie.
-void unpack_samples(Bytes packed, int bits, bool big_endian, Frame& frame);
+enum class ByteOrder { kLittle, kBig };
+
+// Packed samples of 8 or 16 bits to and from the byte order of a file.
+void unpack_samples(Bytes packed, int bits, ByteOrder order, Frame& frame);
+void append_samples(const Samples& samples, ByteOrder order, std::string& out);
 
 }  // namespace thermedge::io

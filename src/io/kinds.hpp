@@ -3,6 +3,9 @@
 
 #include <cstddef>
 #include <span>
+#include <string>
+
+#include "thermedge/result.hpp"
 
 namespace thermedge::io {
 
@@ -10,5 +13,8 @@ enum class Kind { kUnknown, kPng, kTiff, kPgm, kNpy };
 
 // By the first bytes; 16 are enough.
 [[nodiscard]] Kind kind_of(std::span<const std::byte> first_bytes);
+
+// Says that a file of unknown kind is not read, what it seems to be, and what would help.
+[[nodiscard]] Error unknown_kind(std::span<const std::byte> first_bytes, const std::string& name);
 
 }  // namespace thermedge::io

@@ -1,4 +1,4 @@
-#include <algorithm>
+// Portable graymap: text (P2) or binary (P5) pixels behind a header of three numbers.
 #include <cctype>
 #include <optional>
 
@@ -29,7 +29,7 @@ class NumberReader {
   }
 
   // Exactly one white space parts the header from the pixels.
-  std::optional<Bytes> pixels() const {
+  [[nodiscard]] std::optional<Bytes> pixels() const {
     if (at_ >= bytes_.size() || std::isspace(peek()) == 0) {
       return std::nullopt;
     }
@@ -54,18 +54,15 @@ class NumberReader {
   std::size_t at_ = 2;  // behind "P5" or "P2"
 };
 
-tl::unexpected<Error> damaged(const EncodedFile& file, const std::string& what) {
-  return failure(ErrorCode::kBadData, file.name + ": damaged PGM: " + what);
-}
-
 Status read_text_pixels(NumberReader& numbers, std::uint32_t largest, const EncodedFile& file,
                         ImageView<std::uint16_t> counts) {
   for (int y = 0; y < counts.height(); ++y) {
     for (int x = 0; x < counts.width(); ++x) {
       const auto value = numbers.next();
       if (!value || *value > largest) {
-        return damaged(
-            file, value ? "a pixel is above the maximum of the header" : "the file ends early");
+        return damaged(file, "PGM",
+                       value ? "a pixel is above the maximum of the header"
+                             : "the file ends early, or a pixel is no number");
       }
       counts(x, y) = static_cast<std::uint16_t>(*value);
     }
@@ -81,41 +78,33 @@ Status decode_pgm(const EncodedFile& file, Frame& frame) {
   const auto height = numbers.next();
   const auto largest = numbers.next();
   if (!width || !height || !largest || *largest == 0 || *largest > 65535) {
-    return damaged(file, "the header should hold width, height and a maximum of 1 to 65535");
+    return damaged(file, "PGM", "the header should hold width, height and a maximum of 1 to 65535");
   }
-  if (Status status = check_limits(file.limits, file.name, *width, *height, 2); !status) {
+  if (Status status = check_claim(file, *width, *height, 2); !status) {
     return status;
   }
   frame.bits = *largest > 255 ? 16 : 8;
-  const std::size_t needed =
-      static_cast<std::size_t>(*width) * *height * static_cast<std::size_t>(frame.bits / 8);
   const bool text = file.bytes[1] == std::byte{'2'};
+  const std::size_t pixel_count = static_cast<std::size_t>(*width) * *height;
+  // As text, a pixel has at least a digit, and white space before the next one.
+  const std::size_t needed =
+      text ? 2 * pixel_count - 1 : pixel_count * static_cast<std::size_t>(frame.bits / 8);
   const auto pixels = numbers.pixels();
-  if (!pixels || (!text && pixels->size() < needed)) {
-    return damaged(file, "the file ends early");
+  if (!pixels || pixels->size() < needed) {
+    return damaged(file, "PGM", "the file ends early");
   }
   frame.counts.resize(static_cast<int>(*width), static_cast<int>(*height));
   if (text) {
     return read_text_pixels(numbers, *largest, file, frame.counts);
   }
-  unpack_samples(pixels->first(needed), frame.bits, true, frame);
+  unpack_samples(*pixels, frame.bits, ByteOrder::kBig, frame);
   return {};
 }
 
 std::string encode_pgm(const Samples& samples) {
   std::string out = "P5\n" + std::to_string(samples.width) + " " + std::to_string(samples.height) +
                     "\n" + (samples.bits == 16 ? "65535" : "255") + "\n";
-  for (int y = 0; y < samples.height; ++y) {
-    for (int x = 0; x < samples.width; ++x) {
-      if (samples.bits == 16) {
-        const std::uint16_t value = reinterpret_cast<const std::uint16_t*>(samples.row(y))[x];
-        out += static_cast<char>(value >> 8);
-        out += static_cast<char>(value & 0xFF);
-      } else {
-        out += static_cast<char>(samples.row(y)[x]);
-      }
-    }
-  }
+  append_samples(samples, ByteOrder::kBig, out);
   return out;
 }
 

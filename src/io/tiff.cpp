@@ -1,97 +1,18 @@
-#include <tiffio.h>
-
 #include <algorithm>
-#include <cstdarg>
-#include <cstdio>
+#include <array>
 #include <cstring>
-#include <memory>
 
 #include "io/codecs.hpp"
+#include "io/tiff_memory.hpp"
+#include "io/tiff_pages.hpp"
 
 namespace thermedge::io {
 namespace {
 
-// What libtiff reads from or writes to, and the first error that it reports.
-struct Memory {
-  Bytes input;
-  std::vector<char> output;
-  std::uint64_t at = 0;
-  std::string error;
-};
+using Link = TiffPageChain::Link;
 
-tmsize_t read_bytes(thandle_t handle, void* out, tmsize_t count) {
-  auto* memory = static_cast<Memory*>(handle);
-  const std::uint64_t size = memory->input.size();
-  const auto left = static_cast<tmsize_t>(size - std::min(memory->at, size));
-  const tmsize_t taken = std::min(count, left);
-  if (taken > 0) {
-    std::memcpy(out, memory->input.data() + memory->at, static_cast<std::size_t>(taken));
-    memory->at += static_cast<std::uint64_t>(taken);
-  }
-  return taken;
-}
-
-tmsize_t write_bytes(thandle_t handle, void* bytes, tmsize_t count) {
-  auto* memory = static_cast<Memory*>(handle);
-  const auto length = static_cast<std::size_t>(count);
-  memory->output.resize(std::max<std::size_t>(memory->output.size(), memory->at + length));
-  std::memcpy(memory->output.data() + memory->at, bytes, length);
-  memory->at += length;
-  return count;
-}
-
-toff_t size_of(thandle_t handle) {
-  const auto* memory = static_cast<Memory*>(handle);
-  return std::max<toff_t>(memory->input.size(), memory->output.size());
-}
-
-toff_t seek(thandle_t handle, toff_t offset, int whence) {
-  auto* memory = static_cast<Memory*>(handle);
-  memory->at = whence == SEEK_SET   ? offset
-               : whence == SEEK_CUR ? memory->at + offset
-                                    : size_of(handle) + offset;
-  return memory->at;
-}
-
-int close_nothing(thandle_t) { return 0; }
-
-int on_error(TIFF*, void* user, const char*, const char* format, std::va_list arguments) {
-  auto* memory = static_cast<Memory*>(user);
-  if (memory->error.empty()) {
-    char text[256];
-    std::vsnprintf(text, sizeof(text), format, arguments);
-    memory->error = text;
-    std::replace(memory->error.begin(), memory->error.end(), '\n', ' ');
-  }
-  return 1;
-}
-
-int on_warning(TIFF*, void*, const char*, const char*, std::va_list) { return 1; }
-
-struct TiffCloser {
-  void operator()(TIFF* tiff) const { TIFFClose(tiff); }
-};
-using TiffFile = std::unique_ptr<TIFF, TiffCloser>;
-
-TiffFile open_tiff(Memory& memory, const char* mode, std::uint64_t max_bytes) {
-  TIFFOpenOptions* options = TIFFOpenOptionsAlloc();
-  if (options == nullptr) {
-    memory.error = "out of memory";
-    return nullptr;
-  }
-  TIFFOpenOptionsSetMaxSingleMemAlloc(options, static_cast<tmsize_t>(max_bytes));
-  TIFFOpenOptionsSetErrorHandlerExtR(options, on_error, &memory);
-  TIFFOpenOptionsSetWarningHandlerExtR(options, on_warning, &memory);
-  TIFF* tiff = TIFFClientOpenExt("", mode, &memory, read_bytes, write_bytes, seek, close_nothing,
-                                 size_of, nullptr, nullptr, options);
-  TIFFOpenOptionsFree(options);
-  return TiffFile(tiff);
-}
-
-tl::unexpected<Error> damaged(const EncodedFile& file, const Memory& memory) {
-  return failure(
-      ErrorCode::kBadData,
-      file.name + ": damaged TIFF: " + (memory.error.empty() ? "it cannot be read" : memory.error));
+tl::unexpected<Error> damaged_tiff(const EncodedFile& file, const TiffMemory& memory) {
+  return damaged(file, "TIFF", memory.error[0] != '\0' ? memory.error : "it cannot be read");
 }
 
 struct Header {
@@ -101,35 +22,59 @@ struct Header {
   bool min_is_white = false;
 };
 
-Result<Header> read_header(TIFF* tiff, const EncodedFile& file) {
-  Header header;
+// What kind of TIFF this is, should it be one that is not read.
+std::string refusal(TIFF* tiff) {
   std::uint16_t channels = 1;
+  std::uint16_t bits = 1;
   std::uint16_t format = SAMPLEFORMAT_UINT;
+  std::uint16_t photometric = PHOTOMETRIC_MINISBLACK;
+  std::uint16_t compression = COMPRESSION_NONE;
+  TIFFGetFieldDefaulted(tiff, TIFFTAG_SAMPLESPERPIXEL, &channels);
+  TIFFGetFieldDefaulted(tiff, TIFFTAG_BITSPERSAMPLE, &bits);
+  TIFFGetFieldDefaulted(tiff, TIFFTAG_SAMPLEFORMAT, &format);
+  TIFFGetField(tiff, TIFFTAG_PHOTOMETRIC, &photometric);
+  TIFFGetFieldDefaulted(tiff, TIFFTAG_COMPRESSION, &compression);
+  if (photometric != PHOTOMETRIC_MINISBLACK && photometric != PHOTOMETRIC_MINISWHITE) {
+    return "a colour picture; frames have a single channel (grey)";
+  }
+  if (channels != 1) {
+    return "a TIFF of " + std::to_string(channels) + " channels; frames have a single one (grey)";
+  }
+  const bool whole_numbers = format == SAMPLEFORMAT_UINT || format == SAMPLEFORMAT_VOID;
+  if (!whole_numbers || (bits != 8 && bits != 16)) {
+    return "a TIFF of " + std::to_string(bits) + " bits" +
+           (whole_numbers ? "" : ", not unsigned whole numbers") +
+           "; frames have 8 or 16 unsigned bits";
+  }
+  constexpr std::array<std::uint16_t, 5> kRead = {COMPRESSION_NONE, COMPRESSION_LZW,
+                                                  COMPRESSION_ADOBE_DEFLATE, COMPRESSION_DEFLATE,
+                                                  COMPRESSION_PACKBITS};
+  if (std::find(kRead.begin(), kRead.end(), compression) == kRead.end()) {
+    return "a TIFF with compression " + std::to_string(compression) +
+           "; none, LZW, deflate and PackBits are read";
+  }
+  return "";
+}
+
+Result<Header> read_header(TIFF* tiff, const EncodedFile& file) {
+  if (const std::string reason = refusal(tiff); !reason.empty()) {
+    return failure(ErrorCode::kUnsupported, file.name + ": " + reason);
+  }
+  Header header;
   std::uint16_t photometric = PHOTOMETRIC_MINISBLACK;
   TIFFGetField(tiff, TIFFTAG_IMAGEWIDTH, &header.width);
   TIFFGetField(tiff, TIFFTAG_IMAGELENGTH, &header.height);
   TIFFGetFieldDefaulted(tiff, TIFFTAG_BITSPERSAMPLE, &header.bits);
-  TIFFGetFieldDefaulted(tiff, TIFFTAG_SAMPLESPERPIXEL, &channels);
-  TIFFGetFieldDefaulted(tiff, TIFFTAG_SAMPLEFORMAT, &format);
   TIFFGetField(tiff, TIFFTAG_PHOTOMETRIC, &photometric);
-  const bool grey = photometric == PHOTOMETRIC_MINISBLACK || photometric == PHOTOMETRIC_MINISWHITE;
-  if (!grey || channels != 1 || (header.bits != 8 && header.bits != 16) ||
-      (format != SAMPLEFORMAT_UINT && format != SAMPLEFORMAT_VOID)) {
-    return failure(ErrorCode::kUnsupported,
-                   file.name + ": a TIFF of " + std::to_string(channels) + " channel(s) of " +
-                       std::to_string(header.bits) + " bits" +
-                       (format == SAMPLEFORMAT_UINT ? "" : ", not unsigned integers") +
-                       "; frames have one channel of 8 or 16 unsigned bits");
-  }
   header.min_is_white = photometric == PHOTOMETRIC_MINISWHITE;
-  return check_limits(file.limits, file.name, header.width, header.height, 2).map([&] {
+  return check_claim(file, header.width, header.height, header.bits / 8).map([&] {
     return header;
   });
 }
 
 void store_row(const std::byte* samples, const Header& header, std::size_t count,
                std::uint16_t* row) {
-  const auto largest = static_cast<std::uint16_t>(header.bits == 8 ? 255 : 65535);
+  const unsigned largest = header.bits == 8 ? 255 : 65535;
   for (std::size_t x = 0; x < count; ++x) {
     std::uint16_t value = 0;
     if (header.bits == 8) {
@@ -142,8 +87,8 @@ void store_row(const std::byte* samples, const Header& header, std::size_t count
 }
 
 bool read_strips(TIFF* tiff, const Header& header, ImageView<std::uint16_t> counts) {
-  std::vector<std::byte> line(static_cast<std::size_t>(TIFFScanlineSize(tiff)));
-  if (line.size() < static_cast<std::size_t>(counts.width()) * (header.bits / 8)) {
+  std::vector<std::byte> line(std::size_t{header.width} * (header.bits / 8));
+  if (static_cast<std::size_t>(TIFFScanlineSize(tiff)) != line.size()) {
     return false;
   }
   for (int y = 0; y < counts.height(); ++y) {
@@ -161,10 +106,9 @@ bool read_tiles(TIFF* tiff, const Header& header, const Limits& limits,
   std::uint32_t tile_height = 0;
   TIFFGetField(tiff, TIFFTAG_TILEWIDTH, &tile_width);
   TIFFGetField(tiff, TIFFTAG_TILELENGTH, &tile_height);
-  const std::size_t pixel_bytes = header.bits / 8;
-  const std::uint64_t tile_bytes = std::uint64_t{tile_width} * tile_height * pixel_bytes;
-  if (tile_bytes == 0 || tile_bytes > limits.max_bytes ||
-      static_cast<std::uint64_t>(TIFFTileSize(tiff)) != tile_bytes) {
+  const std::size_t row_bytes = std::size_t{tile_width} * (header.bits / 8);
+  const auto tile_bytes = static_cast<std::uint64_t>(std::max<tmsize_t>(TIFFTileSize(tiff), 0));
+  if (tile_bytes == 0 || tile_bytes > limits.max_bytes || tile_bytes != row_bytes * tile_height) {
     return false;
   }
   std::vector<std::byte> tile(tile_bytes);
@@ -174,8 +118,8 @@ bool read_tiles(TIFF* tiff, const Header& header, const Limits& limits,
         return false;
       }
       const std::size_t columns = std::min(tile_width, header.width - x0);
-      for (std::uint32_t y = y0; y < std::min(y0 + tile_height, header.height); ++y) {
-        store_row(tile.data() + std::size_t{y - y0} * tile_width * pixel_bytes, header, columns,
+      for (std::uint32_t y = y0; y < header.height && y - y0 < tile_height; ++y) {
+        store_row(tile.data() + (y - y0) * row_bytes, header, columns,
                   counts.row(static_cast<int>(y)) + x0);
       }
     }
@@ -183,25 +127,12 @@ bool read_tiles(TIFF* tiff, const Header& header, const Limits& limits,
   return true;
 }
 
-}  // namespace
-
-Result<std::size_t> count_tiff_pages(const EncodedFile& file) {
-  Memory memory;
+Status decode_directory(const EncodedFile& file, std::uint64_t offset, Frame& frame) {
+  TiffMemory memory;
   memory.input = file.bytes;
-  const TiffFile tiff = open_tiff(memory, "r", file.limits.max_bytes);
-  const std::size_t pages = tiff ? TIFFNumberOfDirectories(tiff.get()) : 0;
-  if (pages == 0 || !memory.error.empty()) {
-    return damaged(file, memory);
-  }
-  return pages;
-}
-
-Status decode_tiff(const EncodedFile& file, std::size_t page, Frame& frame) {
-  Memory memory;
-  memory.input = file.bytes;
-  const TiffFile tiff = open_tiff(memory, "r", file.limits.max_bytes);
-  if (!tiff || TIFFSetDirectory(tiff.get(), static_cast<tdir_t>(page)) != 1) {
-    return damaged(file, memory);
+  const TiffFile tiff = open_tiff(memory, "rh", file.limits.max_bytes);
+  if (!tiff || TIFFSetSubDirectory(tiff.get(), offset) != 1) {
+    return damaged_tiff(file, memory);
   }
   const auto header = read_header(tiff.get(), file);
   if (!header) {
@@ -212,16 +143,54 @@ Status decode_tiff(const EncodedFile& file, std::size_t page, Frame& frame) {
   const bool good = TIFFIsTiled(tiff.get()) != 0
                         ? read_tiles(tiff.get(), *header, file.limits, frame.counts)
                         : read_strips(tiff.get(), *header, frame.counts);
-  if (!good || !memory.error.empty()) {
-    return damaged(file, memory);
+  if (!good || memory.error[0] != '\0') {
+    return damaged_tiff(file, memory);
   }
   return {};
 }
 
+}  // namespace
+
+Result<std::size_t> count_tiff_pages(const EncodedFile& file) {
+  TiffPageChain chain(file.bytes);
+  for (std::size_t pages = 0;; ++pages) {
+    switch (chain.next()) {
+      case Link::kPage:
+        break;
+      case Link::kEnd:
+        return pages > 0 ? Result<std::size_t>(pages) : damaged(file, "TIFF", "it has no pages");
+      case Link::kOutside:
+        return pages + 1;  // where reading it says what is wrong, after the good ones
+      case Link::kCircle:
+        return damaged(file, "TIFF", "its pages follow each other in a circle");
+    }
+  }
+}
+
+Status decode_tiff(const EncodedFile& file, std::size_t page, Frame& frame) {
+  TiffPageChain chain(file.bytes);
+  for (std::size_t before = 0;; ++before) {
+    switch (chain.next()) {
+      case Link::kPage:
+        if (before == page) {
+          return decode_directory(file, chain.offset(), frame);
+        }
+        break;
+      case Link::kEnd:
+        return no_such_page(file, page);
+      case Link::kOutside:
+        return damaged(file, "TIFF",
+                       "page " + std::to_string(before) + " lies behind the end of the file");
+      case Link::kCircle:
+        return damaged(file, "TIFF", "its pages follow each other in a circle");
+    }
+  }
+}
+
 Result<std::string> encode_tiff(const Samples& samples, const std::string& name) {
-  Memory memory;
-  constexpr std::uint64_t kNoLimit = 0;
-  TiffFile tiff = open_tiff(memory, "w", kNoLimit);
+  TiffMemory memory;
+  constexpr std::uint64_t kNoBound = 0;
+  TiffFile tiff = open_tiff(memory, "w", kNoBound);
   bool good = tiff != nullptr;
   if (good) {
     TIFFSetField(tiff.get(), TIFFTAG_IMAGEWIDTH, samples.width);
@@ -242,10 +211,10 @@ Result<std::string> encode_tiff(const Samples& samples, const std::string& name)
     good = good && TIFFFlush(tiff.get()) == 1;
   }
   tiff.reset();
-  if (!good || !memory.error.empty()) {
-    return failure(ErrorCode::kIo, name + ": TIFF cannot be written: " + memory.error);
+  if (!good || memory.error[0] != '\0') {
+    return failure(ErrorCode::kOutOfMemory, name + ": TIFF cannot be written: " + memory.error);
   }
-  return std::string(memory.output.begin(), memory.output.end());
+  return std::move(memory.output);
 }
 
 }  // namespace thermedge::io

@@ -83,17 +83,22 @@ Image<std::int16_t> random_levels(int width, int height, double sigma) {
   return levels;
 }
 
+Image<std::int16_t> transposed(const Image<std::int16_t>& image) {
+  Image<std::int16_t> out(image.height(), image.width());
+  for (int y = 0; y < image.height(); ++y) {
+    for (int x = 0; x < image.width(); ++x) {
+      out(y, x) = image(x, y);
+    }
+  }
+  return out;
+}
+
 // Few levels make ties, many make sums that stop at 65535 and differences that wrap.
 TEST(Bm3dMatchTest, FindsTheNearestBlocksInOrder) {
   detail::MatchScratch scratch;
   for (const double sigma : {0.0, 0.3, 4.0, 60.0, 9000.0}) {
     const Image<std::int16_t> levels = random_levels(80, 77, sigma);
-    Image<std::int16_t> transposed(77, 80);
-    for (int y = 0; y < 77; ++y) {
-      for (int x = 0; x < 80; ++x) {
-        transposed(y, x) = levels(x, y);
-      }
-    }
+    const Image<std::int16_t> other = transposed(levels);
     test::for_each_simd_target([&](const std::string&) {
       for (const int width : {1, 2, 3, 7, 8, 9, 15, 17, 31, 32, 33, 36, 37, 65}) {
         for (const int height : {1, 2, 5, 9, 33, 65}) {
@@ -102,8 +107,7 @@ TEST(Bm3dMatchTest, FindsTheNearestBlocksInOrder) {
           const BlockPosition reference = {window.x + width * 2 / 3, window.y + height / 2};
           for (int count = 1; count <= std::min(32, width * height); count = count * 3 / 2 + 1) {
             std::array<BlockPosition, detail::kLargestGroup> group;
-            detail::match_blocks({levels, transposed}, reference, window, count, scratch,
-                                 group.data());
+            detail::match_blocks({levels, other}, reference, window, count, scratch, group.data());
             const auto expected = test::matches(levels, reference, window, count);
             ASSERT_TRUE(std::equal(expected.begin(), expected.end(), group.begin()))
                 << width << " x " << height << ", " << count << ", sigma " << sigma;
@@ -112,6 +116,24 @@ TEST(Bm3dMatchTest, FindsTheNearestBlocksInOrder) {
       }
     });
   }
+}
+
+// A single pixel that differs by 253 to 260 levels: those of 255 and more tie.
+TEST(Bm3dMatchTest, LetsNoPixelCountMoreThan255Levels) {
+  Image<std::int16_t> levels(8 * 9, 8);
+  fill_pixels(levels.view(), std::int16_t{100});
+  for (int block = 1; block < 9; ++block) {
+    levels(8 * block + 3, 5) = static_cast<std::int16_t>(100 + 261 - block);
+  }
+  const Image<std::int16_t> other = transposed(levels);
+  const SearchWindow window = {0, 0, 8 * 8 + 1, 1};
+  detail::MatchScratch scratch;
+  test::for_each_simd_target([&](const std::string&) {
+    std::array<BlockPosition, detail::kLargestGroup> group;
+    detail::match_blocks({levels, other}, {0, 0}, window, 32, scratch, group.data());
+    const auto expected = test::matches(levels, {0, 0}, window, 32);
+    ASSERT_TRUE(std::equal(expected.begin(), expected.end(), group.begin()));
+  });
 }
 
 }  // namespace

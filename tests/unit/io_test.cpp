@@ -178,7 +178,7 @@ struct Refused {
 
 TEST(Decoder, SaysWhatItRefuses) {
   for (const Refused& refused : {
-           Refused{"", "file: not a picture"},
+           Refused{"", "file: the file is empty"},
            Refused{"hello", "file: not a picture"},
            Refused{"\xff\xd8\xff\xe0", "file: a JPEG picture; not a picture that thermedge reads"},
            Refused{"RIFF1234AVI ", "file: an AVI video; pipe it in: ffmpeg -i FILE"},
@@ -221,8 +221,9 @@ TEST(WriteFile, LeavesTheOldFileAndNoOtherOnFailure) {
   EXPECT_EQ(test::file_text(directory / "x"), "new");
   const Status missing = write_file(directory / "nowhere/x", "text");
   ASSERT_FALSE(missing);
-  EXPECT_EQ(missing.error().message,
-            (directory / "nowhere/x") + ": cannot be written: No such file or directory");
+  EXPECT_EQ(missing.error().message, (directory / "nowhere/x") +
+                                         ": cannot be written: there is no directory " +
+                                         (directory / "nowhere"));
   std::filesystem::create_directory(directory / "taken");
   EXPECT_FALSE(write_file(directory / "taken", "text"));
   std::size_t files = 0;

@@ -17,10 +17,10 @@ namespace thermedge::io {
 // One frame as read. 8-bit pictures are widened, not scaled.
 struct Frame {
   Image<std::uint16_t> counts;
-  int bits = 16;           // 8 or 16: of a pixel in the file
-  std::string source;      // the file as the user named it, with "[page]" behind a multi-page one
-  std::string stem;        // unique name for results: file stem, "_0007" behind a multi-page one
-  std::int64_t index = 0;  // 0, 1, 2 ... within the source
+  int bits = 16;       // 8 or 16: of a pixel in the file
+  std::string source;  // the file as the user named it; "x.tif[7]" where it holds several frames
+  std::string stem;    // name for results: "x"; "x_0007" where the file holds several
+  std::int64_t index = 0;  // 0, 1, 2 ... within the file
 };
 
 enum class RawFormat { kGray16Le, kGray16Be, kGray8 };
@@ -43,20 +43,24 @@ class FrameSource {
   [[nodiscard]] virtual std::size_t size_hint() const = 0;
 };
 
-// Opens files, directories (every picture in it, natural order: 2 before 10), globs (also when the
-// shell did not expand them) and "-" (raw frames on standard input), in the order given.
-// The kind of a file is found by its content: PNG 8/16 bit grey, TIFF 8/16 bit grey (uncompressed,
-// LZW, deflate; multi-page), PGM 8/16 bit, NPY (uint8, uint16; 2-D, or 3-D as a stack). Files named
-// .raw, and "-", are headerless and need raw_width and raw_height.
-// Errors: nothing matches an input; an unknown kind of file where it is the only one named.
+// Opens files, directories (every picture in it, natural order: 2 before 10; hidden files, other
+// files and directories inside are passed over), globs (also when the shell did not expand them)
+// and
+// "-" (raw frames on standard input), in the order given. One file is in memory at a time.
+// The kind of a file is found by its content: PNG (grey, or colour without colour), TIFF 8/16 bit
+// grey (uncompressed, LZW, deflate, PackBits; multi-page), PGM 8/16 bit, NPY (uint8, uint16; 2-D,
+// or 3-D as a stack). Files named .raw, and "-", are headerless and need raw_width and raw_height.
+// Errors: nothing matches an input. What is wrong with a file is an error of next().
 [[nodiscard]] Result<std::unique_ptr<FrameSource>> open_files(
     const std::vector<std::string>& inputs, const SourceOptions& options);
 
-// Decodes a picture in memory; `name` is for messages. `page`: 0-based, of a TIFF or a stack.
+// Decodes a picture in memory; `name` is for messages. `page`: 0-based, of a TIFF or a stack; it is
+// an error where there is no such page. On error, the frame's pixels are unspecified. Thread-safe.
 [[nodiscard]] Status decode_picture(std::span<const std::byte> bytes, const std::string& name,
                                     const Limits& limits, std::size_t page, Frame& frame);
 
-// Number of pages of a picture in memory: 1 but for multi-page TIFF and 3-D NPY.
+// Number of pages of a picture in memory: 1 but for multi-page TIFF and 3-D NPY. A TIFF that was
+// cut off counts one page more than it has; decoding that one says so.
 [[nodiscard]] Result<std::size_t> count_pages(std::span<const std::byte> bytes,
                                               const std::string& name, const Limits& limits);
 

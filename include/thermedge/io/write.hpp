@@ -15,11 +15,12 @@ struct Rgb {
   friend bool operator==(const Rgb&, const Rgb&) = default;
 };
 
-// Errors name the path and the system's reason. An existing file stays as it was on failure.
+// Errors name the path and the system's reason. An existing file stays as it was on failure, and
+// nobody sees half of a new one. Devices and pipes are written to as they are. Thread-safe.
 [[nodiscard]] Status write_file(const std::string& path, std::string_view bytes);
 
-// Grey 8 or 16 bit by the ending of `path`: .png, .tif/.tiff (deflate), .pgm, .npy, .raw (little
-// endian). Other endings: an error that lists these.
+// Grey of 8 or 16 bits in the format that the ending of `path` names: .png, .tif/.tiff (deflate),
+// .pgm, .npy, .raw (little endian). Other endings: an error that lists these.
 [[nodiscard]] Status write_picture(const std::string& path, ImageView<const std::uint8_t> picture);
 [[nodiscard]] Status write_picture(const std::string& path, ImageView<const std::uint16_t> picture);
 
