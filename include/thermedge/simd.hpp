@@ -11,7 +11,7 @@
 namespace thermedge {
 
 // Names of the targets that this program contains and this CPU runs, best first,
-// e.g. {"AVX3", "AVX2", "SSE4", "EMU128"}.
+// e.g. {"AVX3", "AVX2", "SSE4", "SCALAR"}.
 [[nodiscard]] std::vector<std::string> simd_targets();
 
 // Selects a target for the whole process by name (case does not matter), or "auto" for the best.
