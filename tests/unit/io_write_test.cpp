@@ -1,8 +1,11 @@
 // Files are written whole or not at all.
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <csignal>
 #include <thread>
 
@@ -83,20 +86,20 @@ TEST(WriteFile, GoesThroughSymbolicLinks) {
   EXPECT_EQ(file_text(directory / "place/x"), "new");
 }
 
+// On a pipe of the test's own: should this break, a real device would be gone.
 TEST(WriteFile, LeavesDevicesAndPipesWhatTheyAre) {
   const TemporaryDirectory directory;
-  EXPECT_TRUE(write_file("/dev/null", "x"));
-  EXPECT_TRUE(fs::is_character_file("/dev/null"));
-  const Status full = write_file("/dev/full", "x");
-  ASSERT_FALSE(full);
-  EXPECT_EQ(full.error().message, "/dev/full: cannot be written: No space left on device");
   const std::string pipe = directory / "pipe";
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
-  std::string received;
-  std::thread reader([&] { received = file_text(pipe); });
+  const int end = ::open(pipe.c_str(), O_RDWR | O_NONBLOCK);
+  ASSERT_GE(end, 0);
   EXPECT_TRUE(write_file(pipe, "through"));
-  reader.join();
-  EXPECT_EQ(received, "through");
+  std::string received(100, '\0');
+  const ssize_t count = ::read(end, received.data(), received.size());
+  ::close(end);
+  EXPECT_EQ(received.substr(0, static_cast<std::size_t>(std::max<ssize_t>(count, 0))), "through");
+  EXPECT_TRUE(fs::is_fifo(pipe));
+  EXPECT_EQ(files_in(directory), 1U);
 }
 
 TEST(WriteFile, ByManyAtOnceGivesOneOfThem) {
