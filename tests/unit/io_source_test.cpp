@@ -6,6 +6,7 @@
 
 #include <array>
 
+#include "io/codecs.hpp"
 #include "io/files.hpp"
 #include "support/encoded_pictures.hpp"
 #include "support/files.hpp"
@@ -265,6 +266,13 @@ TEST(Inputs, ReuseTheMemoryOfTheFrame) {
   const std::uint16_t* pixels = frame.counts.row(0);
   ASSERT_EQ((*source)->next(frame), true);
   EXPECT_EQ(frame.counts.row(0), pixels);
+}
+
+TEST(Messages, AreOneLineWhateverAFileSays) {
+  const std::string name = "file";
+  const Limits limits;
+  EXPECT_EQ(damaged({{}, name, limits}, "PNG", "a\nb\x1b[2J\xff").value().message,
+            "file: damaged PNG: a?b?[2J?");
 }
 
 TEST(Kinds, ThatPeopleTryAreNamed) {

@@ -92,6 +92,12 @@ TEST(Pgm, IsBigEndianAndHasComments) {
   EXPECT_EQ(pixels(decoded("P2\n3 1\n1000\n0 7\n1000\n")), (std::vector{0, 7, 1000}));
 }
 
+TEST(Pgm, OfTextTooShortForItsPixelsIsRefusedBeforeTheyAreRead) {
+  const auto frame = decoded("P2\n300 300\n255\n1 2 3");
+  ASSERT_FALSE(frame);
+  EXPECT_EQ(frame.error().message, "file: damaged PGM: the file ends early");
+}
+
 std::string npy(const std::string& type, const std::string& order, const std::string& shape,
                 const std::string& data, char version = 1) {
   const std::string header =

@@ -102,6 +102,22 @@ TEST(WriteFile, LeavesDevicesAndPipesWhatTheyAre) {
   EXPECT_EQ(files_in(directory), 1U);
 }
 
+TEST(WriteFile, DoesNotFollowLinksInPlaceOfItsTemporaryFile) {
+  const TemporaryDirectory directory;
+  ASSERT_TRUE(write_file(directory / "victim", "whole"));
+  constexpr int kNames = 2000;
+  for (int i = 0; i < kNames; ++i) {
+    fs::create_symlink("victim", directory / (".thermedge-" + std::to_string(::getpid()) + "-" +
+                                              std::to_string(i) + ".tmp"));
+  }
+  const Status status = write_file(directory / "x", "text");
+  ASSERT_FALSE(status);
+  EXPECT_EQ(status.error().message, (directory / "x") +
+                                        ": cannot be written: temporary files of "
+                                        "earlier runs are in the way");
+  EXPECT_EQ(file_text(directory / "victim"), "whole");
+}
+
 TEST(WriteFile, ByManyAtOnceGivesOneOfThem) {
   const TemporaryDirectory directory;
   const std::string path = directory / "x";
