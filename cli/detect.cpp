@@ -26,12 +26,21 @@ struct EdgeCommand {
   [[nodiscard]] Result<DetectorOptions> detector_options() const;
 };
 
+std::vector<std::string> preset_names() {
+  std::vector<std::string> names;
+  names.reserve(kPresets.size());
+  for (const auto& known : kPresets) {
+    names.emplace_back(known.name);
+  }
+  return names;
+}
+
 void EdgeCommand::add_to(CLI::App& app) {
   common.add_to(app);
   config.add_to(app);
   app.get_option("INPUT")->required(false);  // --dump-config needs none
   app.add_option("--preset", preset, "named set of defaults")
-      ->check(CLI::IsMember({"paper"}))
+      ->check(CLI::IsMember(preset_names()))
       ->capture_default_str();
   app.add_option("--keep", keep, "keep the best so many edges (ET; 0: all)")
       ->check(CLI::Range(0, 1000000000));
@@ -49,8 +58,12 @@ void EdgeCommand::add_denoising(CLI::App& app) {
 
 // Dedicated options come last, over --set, over the file, over the preset.
 Result<DetectorOptions> EdgeCommand::detector_options() const {
-  DetectorOptions options = preset_options(Preset::kPaper);
-  options.threads = common.threads;
+  DetectorOptions options;
+  for (const auto& known : kPresets) {
+    if (known.name == preset) {
+      options = preset_options(known.value);
+    }
+  }
   if (Status status = config.apply(options); !status) {
     return tl::unexpected(status.error());
   }
