@@ -1,8 +1,10 @@
 // The whole detector: a frame of counts in, ranked smooth edges out (paper Algorithm 6).
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
+#include <string_view>
 #include <vector>
 
 #include "thermedge/contours.hpp"
@@ -23,6 +25,18 @@ struct StageTimes {
          linking = 0, scoring = 0, measure = 0;
   [[nodiscard]] double total() const;
 };
+
+// Every stage by name, in the order in which they run.
+struct Stage {
+  std::string_view name;
+  double StageTimes::*ms;
+};
+inline constexpr std::array kStages = {
+    Stage{"noise", &StageTimes::noise},     Stage{"nuc", &StageTimes::nuc},
+    Stage{"scale", &StageTimes::scale},     Stage{"denoise", &StageTimes::denoise},
+    Stage{"canny", &StageTimes::canny},     Stage{"contours", &StageTimes::contours},
+    Stage{"linking", &StageTimes::linking}, Stage{"corners", &StageTimes::corners},
+    Stage{"scoring", &StageTimes::scoring}, Stage{"measure", &StageTimes::measure}};
 
 // What one frame gave. Everything is owned by the detector and stays valid until its next call.
 struct Detection {

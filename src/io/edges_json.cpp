@@ -37,12 +37,12 @@ Json to_json(const EdgeSet& set, const Edge& edge) {
 }
 
 Json to_json(const StageTimes& ms) {
-  return {{"noise", rounded(ms.noise)},     {"nuc", rounded(ms.nuc)},
-          {"scale", rounded(ms.scale)},     {"denoise", rounded(ms.denoise)},
-          {"canny", rounded(ms.canny)},     {"contours", rounded(ms.contours)},
-          {"linking", rounded(ms.linking)}, {"corners", rounded(ms.corners)},
-          {"scoring", rounded(ms.scoring)}, {"measure", rounded(ms.measure)},
-          {"total", rounded(ms.total())}};
+  Json json = Json::object();
+  for (const Stage& stage : kStages) {
+    json[std::string(stage.name)] = rounded(ms.*stage.ms);
+  }
+  json["total"] = rounded(ms.total());
+  return json;
 }
 
 }  // namespace
