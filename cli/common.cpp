@@ -28,6 +28,17 @@ Status parse_size(const std::string& text, io::SourceOptions& options) {
                  fmt::format("--raw-size {}: should be WIDTHxHEIGHT, e.g. 382x288", text));
 }
 
+// `name` in a directory, which is made where it is missing.
+Result<std::string> in_directory(const std::filesystem::path& directory, const std::string& name) {
+  std::error_code error;
+  std::filesystem::create_directories(directory, error);
+  if (error) {
+    return failure(ErrorCode::kIo, fmt::format("{}: cannot be made a directory: {}",
+                                               directory.string(), error.message()));
+  }
+  return (directory / name).string();
+}
+
 }  // namespace
 
 void CommonOptions::add_to(CLI::App& app) {
@@ -129,17 +140,17 @@ void OutputDirectory::begin_frame(const std::string& stem) {
 }
 
 Result<std::string> OutputDirectory::path(const std::string& kind, const std::string& ending) {
-  std::filesystem::path place(directory_);
-  if (!kind.empty()) {
-    place /= kind;
-  }
-  std::error_code error;
-  std::filesystem::create_directories(place, error);
-  if (error) {
-    return failure(ErrorCode::kIo, fmt::format("{}: cannot be made a directory: {}", place.string(),
-                                               error.message()));
-  }
-  return (place / (stem_ + ending)).string();
+  const std::filesystem::path directory(directory_);
+  return in_directory(kind.empty() ? directory : directory / kind, stem_ + ending);
+}
+
+Result<std::string> OutputDirectory::path_in_folder(const std::string& name) {
+  return in_directory(std::filesystem::path(directory_) / stem_, name);
+}
+
+tl::unexpected<Error> only_one_frame(const std::string& output) {
+  return failure(ErrorCode::kInvalidArgument,
+                 output + " holds the first frame; for several give -o DIR");
 }
 
 std::vector<std::string> split_list(const std::string& list) {

@@ -50,21 +50,25 @@ struct ConfigOptions {
                                  Report& report,
                                  const std::function<Status(const io::Frame&)>& handle);
 
-// Where results of several frames go: DIR/<kind>/<stem><ending>, or DIR/<stem><ending> where kind
-// is empty. Makes the directories; stems that occur twice in a run get "_2", "_3" ... so that no
-// result of the run is lost.
+// Where results of several frames go: DIR/<kind>/<stem><ending>, DIR/<stem><ending> where kind
+// is empty, or a folder for each frame, DIR/<stem>/<name>. Makes the directories; stems that occur
+// twice in a run get "_2", "_3" ... so that no result of the run is lost.
 class OutputDirectory {
  public:
   explicit OutputDirectory(std::string directory) : directory_(std::move(directory)) {}
-  // Once per frame, before path().
+  // Once per frame, before the paths.
   void begin_frame(const std::string& stem);
   [[nodiscard]] Result<std::string> path(const std::string& kind, const std::string& ending);
+  [[nodiscard]] Result<std::string> path_in_folder(const std::string& name);
 
  private:
   std::string directory_;
   std::vector<std::string> used_;  // sorted
   std::string stem_;
 };
+
+// The error of a second frame where `output` names one file.
+[[nodiscard]] tl::unexpected<Error> only_one_frame(const std::string& output);
 
 // "--write a,b" split at the commas.
 [[nodiscard]] std::vector<std::string> split_list(const std::string& list);

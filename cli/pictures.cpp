@@ -35,8 +35,7 @@ class PictureOutput {
       return directory_.path("", ".png");
     }
     if (++written_ > 1) {
-      return failure(ErrorCode::kInvalidArgument,
-                     output_ + " holds the first frame; for several give -o DIR");
+      return only_one_frame(output_);
     }
     return output_;
   }
@@ -48,11 +47,6 @@ class PictureOutput {
   int written_ = 0;
 };
 
-int usage_error(Report& report, const std::string& message) {
-  report.error(message);
-  return kBadUsage;
-}
-
 struct ScaleCommand {
   CommonOptions common;
   ScaleOptions scale;
@@ -61,7 +55,7 @@ struct ScaleCommand {
     Report report = common.report();
     const auto source = common.prepare();
     if (!source) {
-      return usage_error(report, source.error().message);
+      return report.fail(source.error());
     }
     PictureOutput output(common.output);
     Image<std::uint8_t> levels;
@@ -152,7 +146,7 @@ struct DenoiseCommand {
     Report report = common.report();
     DetectorOptions chosen;
     if (const Status status = options(chosen); !status) {
-      return usage_error(report, status.error().message);
+      return report.fail(status.error());
     }
     if (config.dump) {
       fmt::print("{}", io::dump_config(chosen));
@@ -160,7 +154,7 @@ struct DenoiseCommand {
     }
     const auto source = common.prepare();
     if (!source) {
-      return usage_error(report, source.error().message);
+      return report.fail(source.error());
     }
     PictureOutput output(common.output);
     CountsDenoiser denoiser(chosen, common.threads);

@@ -37,6 +37,11 @@ void Report::error(std::string_view message) {
   line("error", message);
 }
 
+int Report::fail(const Error& failure) {
+  error(failure.message);
+  return failure.code == ErrorCode::kInvalidArgument ? kBadUsage : kBadInput;
+}
+
 void Report::note(std::string_view message) {
   if (!quiet_) {
     line("info", message);

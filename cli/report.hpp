@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <string_view>
 
+#include "thermedge/result.hpp"
+
 namespace thermedge::cli {
 
 // Exit codes of the program.
@@ -19,6 +21,9 @@ class Report {
   // One line each; errors are counted. Notes are left out by --quiet.
   void error(std::string_view message);
   void note(std::string_view message);
+
+  // Reports what keeps a command from starting; returns its exit code.
+  [[nodiscard]] int fail(const Error& error);
 
   // A progress bar on a terminal, once the work has lasted a second. `expected` 0: not known.
   void progress(std::size_t done, std::size_t expected);
