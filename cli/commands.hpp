@@ -9,5 +9,6 @@ void add_detect(CLI::App& program, int& exit_code);
 void add_trace(CLI::App& program, int& exit_code);
 void add_scale(CLI::App& program, int& exit_code);
 void add_denoise(CLI::App& program, int& exit_code);
+void add_stages(CLI::App& program, int& exit_code);
 
 }  // namespace thermedge::cli

@@ -22,6 +22,7 @@ int run(int argc, char** argv) {
   add_trace(program, exit_code);
   add_scale(program, exit_code);
   add_denoise(program, exit_code);
+  add_stages(program, exit_code);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

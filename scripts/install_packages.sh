@@ -5,7 +5,8 @@ set -euo pipefail
 
 declare -A packages=(
   [build]="g++ make cmake ninja-build libhwy-dev libtbb-dev libexpected-dev libpng-dev libtiff-dev
-           nlohmann-json3-dev libtomlplusplus-dev libcli11-dev libfmt-dev libgtest-dev"
+           nlohmann-json3-dev libtomlplusplus-dev libcli11-dev libfmt-dev libgtest-dev
+           pkg-config libcairo2-dev fonts-open-sans"
   [check]="clang-format clang-tidy"
   [bench]="libbenchmark-dev"
 )

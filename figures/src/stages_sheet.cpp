@@ -1,0 +1,375 @@
+#include "thermedge/figures/stages_sheet.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <new>
+#include <utility>
+
+#include "frame_panels.hpp"
+#include "thermedge/detector.hpp"
+#include "thermedge/fields.hpp"
+#include "thermedge/io/overlay.hpp"
+#include "thermedge/radiometry.hpp"
+
+namespace thermedge::figures {
+namespace {
+
+constexpr int kColumns = 4;
+
+// What one denoiser made of the levels.
+struct Denoised {
+  DenoiseMethod method;
+  Image<std::uint8_t> levels;
+  double ms = 0;
+};
+
+std::string_view display_name(DenoiseMethod method) {
+  switch (method) {
+    case DenoiseMethod::kNone:
+      return "not denoised";
+    case DenoiseMethod::kGaussian:
+      return "Gaussian";
+    case DenoiseMethod::kNlm:
+      return "NL-means";
+    case DenoiseMethod::kBm3d:
+      return "BM3D";
+  }
+  return "";
+}
+
+std::string plural(std::size_t count, std::string_view one) {
+  return fmt::format("{} {}{}", count, one, count == 1 ? "" : "s");
+}
+
+double rms_difference(ImageView<const std::uint8_t> a, ImageView<const std::uint8_t> b) {
+  double sum = 0;
+  for (int y = 0; y < a.height(); ++y) {
+    for (int x = 0; x < a.width(); ++x) {
+      const double difference = a(x, y) - b(x, y);
+      sum += difference * difference;
+    }
+  }
+  return std::sqrt(sum / static_cast<double>(a.size()));
+}
+
+double share_of_level(ImageView<const std::uint8_t> levels, std::uint8_t level) {
+  std::ptrdiff_t count = 0;
+  for (int y = 0; y < levels.height(); ++y) {
+    count += std::count(levels.row(y), levels.row(y) + levels.width(), level);
+  }
+  return static_cast<double>(count) / static_cast<double>(levels.size());
+}
+
+// Makes the panels of one frame. Holds references only.
+class StagePanels {
+ public:
+  StagePanels(const DetectorOptions& options, const Detection& detection,
+              std::span<const Denoised> denoised, ImageView<const std::uint8_t> mask, int bits)
+      : options_(options), found_(detection), denoised_(denoised), mask_(mask), bits_(bits) {}
+
+  [[nodiscard]] std::vector<Panel> all() const {
+    std::vector<Panel> panels = {frame(), levels()};
+    for (const Denoised& picture : denoised_) {
+      panels.push_back(denoised(picture));
+    }
+    for (Panel& panel : std::vector<Panel>{edge_pixels(), contours(), links(), corners(), scores(),
+                                           ranks(), mask(), times()}) {
+      panels.push_back(std::move(panel));
+    }
+    return panels;
+  }
+
+ private:
+  [[nodiscard]] Panel panel(std::string title, std::string note, Draw draw) const {
+    return {.title = std::move(title),
+            .note = std::move(note),
+            .aspect = static_cast<double>(found_.height) / found_.width,
+            .draw = std::move(draw)};
+  }
+
+  // Lines and marks over the darkened frame.
+  [[nodiscard]] Panel drawn_over(std::string title, std::string note,
+                                 std::function<void(Canvas&)> lines) const {
+    return panel(std::move(title), std::move(note),
+                 [ground = dimmed_frame(found_.corrected), lines = std::move(lines),
+                  width = found_.width, height = found_.height](Canvas& canvas, const Box& box) {
+                   ground(canvas, box);
+                   canvas.inside_frame(box, width, height, [&] { lines(canvas); });
+                 });
+  }
+
+  [[nodiscard]] Panel frame() const {
+    const CountRange range = count_range(found_.corrected);
+    std::string note = fmt::format(
+        "{} to {} counts, noise sigma {:.1f} counts; shown from the "
+        "0.5th to the 99.5th percentile.",
+        range.min, range.max, found_.noise.sigma_counts);
+    if (!found_.dead_pixels.empty()) {
+      note += fmt::format(" {} replaced.", plural(found_.dead_pixels.size(), "dead pixel"));
+    }
+    return panel("Frame", std::move(note), frame_picture(found_.corrected));
+  }
+
+  [[nodiscard]] Panel levels() const {
+    std::string note =
+        bits_ == 8
+            ? std::string("The input has 8 bits: taken as it is.")
+            : fmt::format(
+                  "{} levels a count around the median {}; clipped: {:.1f} % black, {:.1f} "
+                  "% white.",
+                  options_.scale.gain, median_counts(found_.corrected),
+                  100 * share_of_level(found_.levels, 0), 100 * share_of_level(found_.levels, 255));
+    return panel("8-bit view (Algorithm 1)", std::move(note), levels_picture(found_.levels));
+  }
+
+  [[nodiscard]] Panel denoised(const Denoised& picture) const {
+    const double levels_per_count = bits_ == 8 ? 1 : options_.scale.gain;
+    const bool used = picture.method == options_.denoise.method;
+    std::string note =
+        fmt::format("took out {:.1f} counts (rms) in {:.1f} ms{}",
+                    rms_difference(picture.levels.view(), found_.levels) / levels_per_count,
+                    picture.ms, used ? "; the steps below go on from this one." : ".");
+    return panel(fmt::format("Denoised: {}", display_name(picture.method)), std::move(note),
+                 levels_picture(picture.levels.view()));
+  }
+
+  [[nodiscard]] Panel edge_pixels() const {
+    const double share = 1 - share_of_level(found_.edge_map, 0);
+    return panel("Edge pixels (Canny)",
+                 fmt::format("{:.0f} pixels, {:.1f} % of the frame; Sobel magnitude above {:.1f}, "
+                             "connected down to {:.1f} levels.",
+                             share * static_cast<double>(found_.edge_map.size()), 100 * share,
+                             found_.canny_high, found_.canny_low),
+                 map_picture(found_.edge_map));
+  }
+
+  [[nodiscard]] Panel contours() const {
+    const ContourSet& set = *found_.contours;
+    const auto closed = std::count_if(set.contours.begin(), set.contours.end(),
+                                      [](const Contour& contour) { return contour.closed; });
+    return drawn_over(
+        "Contours",
+        fmt::format("{}, {} closed, {} pixels; a new colour for each.",
+                    plural(set.contours.size(), "contour"), closed, set.points.size()),
+        [&set](Canvas& canvas) { draw_contours(canvas, set); });
+  }
+
+  [[nodiscard]] Panel links() const {
+    const LinkedContours& linked = *found_.linked;
+    Panel made =
+        drawn_over("Links",
+                   fmt::format("gaps under {} px: {} contours became {}.", options_.linking.gap_px,
+                               found_.contours->contours.size(), linked.contours.contours.size()),
+                   [&linked](Canvas& canvas) {
+                     draw_contours(canvas, linked.contours, {150, 154, 160});
+                     draw_links(canvas, linked.links);
+                   });
+    made.legend.assign(link_marks().begin(), link_marks().end());
+    for (std::size_t i = 0; i < made.legend.size(); ++i) {
+      const auto count = std::count_if(
+          linked.links.begin(), linked.links.end(),
+          [&](const Link& link) { return static_cast<std::size_t>(link.type) == i + 1; });
+      made.legend[i].label += fmt::format(" {}", count);
+    }
+    return made;
+  }
+
+  [[nodiscard]] Panel corners() const {
+    const EdgeSet& set = found_.edges;
+    return drawn_over(
+        "Corners",
+        fmt::format("{} on {}, ends of open ones counted.", plural(set.corners.size(), "corner"),
+                    plural(set.edges.size(), "edge")),
+        [&set](Canvas& canvas) {
+          draw_edges(canvas, set, set.edges, [](const Edge&) { return Rgb{86, 140, 190}; });
+          draw_corners(canvas, set, {255, 214, 70});
+        });
+  }
+
+  [[nodiscard]] Panel scores() const {
+    const EdgeSet& set = found_.edges;
+    if (set.edges.empty()) {
+      return drawn_over("Edge score ES", "no edge.", [](Canvas&) {});
+    }
+    // ES spans decades; the colours are even steps of its logarithm between the deciles.
+    std::vector<double> es;
+    for (const Edge& edge : set.edges) {
+      es.push_back(edge.es);
+    }
+    std::sort(es.begin(), es.end());
+    const double low = std::max(es[es.size() / 10], 1e-6);
+    const double high = std::max(es[es.size() - 1 - es.size() / 10], 2 * low);
+    const auto share = [=](double value) {
+      return std::log(std::max(value, 1e-9) / low) / std::log(high / low);
+    };
+    Panel made =
+        drawn_over("Edge score ES",
+                   fmt::format("median {:.3g}; small is smooth, long and connected (eq. 18).",
+                               es[es.size() / 2]),
+                   [&set, share](Canvas& canvas) {
+                     draw_edges(canvas, set, set.edges,
+                                [&](const Edge& edge) { return io::rank_colour(share(edge.es)); });
+                   });
+    made.colour_bars = {{io::rank_colour, fmt::format("{:.3g}", low), fmt::format("{:.3g}", high)}};
+    return made;
+  }
+
+  [[nodiscard]] Panel ranks() const {
+    const EdgeSet& set = found_.edges;
+    const double last = std::max<double>(1, static_cast<double>(set.kept) - 1);
+    Panel made = drawn_over(
+        "Rank of the kept edges",
+        fmt::format("the best {} of {}; the others are left out.", set.kept, set.edges.size()),
+        [&set, last](Canvas& canvas) {
+          draw_edges(canvas, set, set.kept_edges(),
+                     [&](const Edge& edge) { return io::rank_colour(edge.rank / last); });
+        });
+    made.colour_bars = {
+        {io::rank_colour, "1", fmt::format("{}", std::max<std::size_t>(set.kept, 1))}};
+    return made;
+  }
+
+  [[nodiscard]] Panel mask() const {
+    std::size_t edgels = 0;
+    for (const Edge& edge : found_.edges.kept_edges()) {
+      edgels += edge.edgels.count;
+    }
+    return panel(
+        "Result: mask of the kept edges",
+        fmt::format("{}, {}.", plural(found_.edges.kept, "edge"), plural(edgels, "edge pixel")),
+        map_picture(mask_));
+  }
+
+  [[nodiscard]] Panel times() const {
+    std::vector<TableRow> rows = {{{"step", "ms"}, false}};
+    for (const Stage& stage : kStages) {
+      rows.push_back(
+          {{std::string(stage.name), fmt::format("{:.2f}", found_.ms.*stage.ms)}, false});
+    }
+    rows.push_back({{"whole frame", fmt::format("{:.2f}", found_.ms.total())}, true});
+    Panel made =
+        panel("Time of each step", "one run on this machine; thermedge bench gives medians.",
+              [rows = std::move(rows)](Canvas& canvas, const Box& box) {
+                draw_table(canvas, box, rows, 0.3);
+              });
+    made.bordered = false;
+    return made;
+  }
+
+  const DetectorOptions& options_;
+  const Detection& found_;
+  std::span<const Denoised> denoised_;
+  ImageView<const std::uint8_t> mask_;
+  int bits_;
+};
+
+constexpr std::string_view kStepNames[] = {"frame",   "levels", "edge_pixels", "contours", "links",
+                                           "corners", "score",  "rank",        "mask",     "times"};
+
+// "03_denoised_nlm" ...: two steps come before the denoisers, the others behind.
+std::vector<std::string> step_names(std::span<const Denoised> denoised) {
+  std::vector<std::string> names(std::begin(kStepNames), std::end(kStepNames));
+  std::vector<std::string> methods;
+  for (const Denoised& picture : denoised) {
+    for (const auto& known : kDenoiseMethods) {
+      if (known.value == picture.method) {
+        methods.push_back(fmt::format("denoised_{}", known.name));
+      }
+    }
+  }
+  names.insert(names.begin() + 2, methods.begin(), methods.end());
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    names[i] = fmt::format("{:02}_{}", i + 1, names[i]);
+  }
+  return names;
+}
+
+}  // namespace
+
+struct StagesSheet::Impl {
+  DetectorOptions options;
+  std::vector<std::pair<DenoiseMethod, Detector>> detectors;  // the chosen one last
+  std::vector<Denoised> denoised;
+  Image<std::uint8_t> mask;
+
+  Result<StagesFigures> draw(ImageView<const std::uint16_t> frame, int bits,
+                             const std::string& source);
+};
+
+Result<StagesFigures> StagesSheet::Impl::draw(ImageView<const std::uint16_t> frame, int bits,
+                                              const std::string& source) {
+  const Detection* detection = nullptr;
+  denoised.clear();
+  for (auto& [method, detector] : detectors) {
+    // The first run on a frame's size allocates; the second shows the usual times.
+    const auto found = detector.detect(frame, bits).and_then([&, &again = detector](auto) {
+      return again.detect(frame, bits);
+    });
+    if (!found) {
+      return tl::unexpected(found.error());
+    }
+    detection = *found;
+    Denoised made{method, {}, detection->ms.denoise};
+    made.levels.resize(frame.width(), frame.height());
+    copy_pixels(detection->denoised, made.levels.view());
+    denoised.push_back(std::move(made));
+  }
+  // On the sheet NL-means comes before BM3D, whichever was chosen.
+  std::sort(denoised.begin(), denoised.end(),
+            [](const Denoised& a, const Denoised& b) { return a.method < b.method; });
+  mask.resize(frame.width(), frame.height());
+  draw_mask(detection->edges, mask);
+
+  const std::vector<Panel> panels =
+      StagePanels(options, *detection, denoised, mask.view(), bits).all();
+  const double panel_width = panel_width_for(frame.width());
+  const SheetText text = {
+      .title = "From the frame to its edges, step by step",
+      .subtitle = fmt::format("{}, {} x {} pixels, preset {}", source, frame.width(),
+                              frame.height(), preset_name(options.preset)),
+      .footer =
+          "Steps after Vu Hoang Minh et al. 2017, sections 2.3 to 4.2. Colours keep their "
+          "order in grey."};
+  StagesFigures figures{make_sheet(text, panels, kColumns, panel_width), {}};
+  const std::vector<std::string> names = step_names(denoised);
+  for (std::size_t i = 0; i < panels.size(); ++i) {
+    figures.steps.push_back({names[i], make_single(panels[i], panel_width)});
+  }
+  return figures;
+}
+
+Result<StagesSheet> StagesSheet::create(const DetectorOptions& options) {
+  auto impl = std::make_unique<Impl>();
+  impl->options = options;
+  std::vector<DenoiseMethod> methods = {DenoiseMethod::kNlm, DenoiseMethod::kBm3d};
+  std::erase(methods, options.denoise.method);
+  methods.push_back(options.denoise.method);
+  for (const DenoiseMethod method : methods) {
+    DetectorOptions chosen = options;
+    chosen.denoise.method = method;
+    auto detector = Detector::create(chosen);
+    if (!detector) {
+      return tl::unexpected(detector.error());
+    }
+    impl->detectors.emplace_back(method, std::move(*detector));
+  }
+  return StagesSheet(std::move(impl));
+}
+
+StagesSheet::StagesSheet(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+StagesSheet::StagesSheet(StagesSheet&&) noexcept = default;
+StagesSheet& StagesSheet::operator=(StagesSheet&&) noexcept = default;
+StagesSheet::~StagesSheet() = default;
+
+Result<StagesFigures> StagesSheet::draw(ImageView<const std::uint16_t> frame, int bits,
+                                        const std::string& source) {
+  try {
+    return impl_->draw(frame, bits, source);
+  } catch (const std::bad_alloc&) {
+    return failure(ErrorCode::kOutOfMemory, "sheet of stages: out of memory");
+  }
+}
+
+}  // namespace thermedge::figures
