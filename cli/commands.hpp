@@ -10,5 +10,6 @@ void add_trace(CLI::App& program, int& exit_code);
 void add_scale(CLI::App& program, int& exit_code);
 void add_denoise(CLI::App& program, int& exit_code);
 void add_stages(CLI::App& program, int& exit_code);
+void add_compare(CLI::App& program, int& exit_code);
 
 }  // namespace thermedge::cli

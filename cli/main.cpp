@@ -23,6 +23,7 @@ int run(int argc, char** argv) {
   add_scale(program, exit_code);
   add_denoise(program, exit_code);
   add_stages(program, exit_code);
+  add_compare(program, exit_code);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

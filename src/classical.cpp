@@ -11,23 +11,13 @@ namespace {
 
 constexpr double kLargestLevel = 1e9;
 
-Status check(ImageView<const float> levels, ImageView<std::uint8_t> edges,
-             const ClassicalOptions& options) {
-  const auto wrong = [](std::string message) {
-    return failure(ErrorCode::kInvalidArgument, std::move(message));
-  };
+tl::unexpected<Error> wrong(std::string message) {
+  return failure(ErrorCode::kInvalidArgument, std::move(message));
+}
+
+Status check_frame(ImageView<const float> levels, ImageView<std::uint8_t> edges) {
   if (levels.empty() || !same_size(levels, edges)) {
     return wrong("classical: the frame is empty or the edge map has another size");
-  }
-  if (!(options.threshold >= 0) || !std::isfinite(options.threshold)) {
-    return wrong("classical.threshold: should be finite and >= 0");
-  }
-  if (!(options.log_sigma_px >= 0.5 && options.log_sigma_px <= 10)) {
-    return wrong("classical.log_sigma_px: should be 0.5 to 10");
-  }
-  const int side = options.log_kernel_px;
-  if (side != 0 && (side < 3 || side > 61 || side % 2 == 0)) {
-    return wrong("classical.log_kernel_px: should be 0 or an odd number from 3 to 61");
   }
   for (int y = 0; y < levels.height(); ++y) {
     if (!std::all_of(levels.row(y), levels.row(y) + levels.width(),
@@ -36,6 +26,13 @@ Status check(ImageView<const float> levels, ImageView<std::uint8_t> edges,
     }
   }
   return {};
+}
+
+DenoiseOptions smoothing(double sigma_px) {
+  DenoiseOptions options;
+  options.method = sigma_px > 0 ? DenoiseMethod::kGaussian : DenoiseMethod::kNone;
+  options.gaussian.sigma_px = sigma_px;
+  return options;
 }
 
 template <class F>
@@ -104,9 +101,32 @@ double square_gradients(ImageView<const double> bordered, double threshold,
 
 }  // namespace
 
+Status check_options(const ClassicalOptions& options) {
+  if (!(options.threshold >= 0) || !std::isfinite(options.threshold)) {
+    return wrong("classical.threshold: should be finite and >= 0");
+  }
+  if (!(options.log_sigma_px >= 0.5 && options.log_sigma_px <= 10)) {
+    return wrong("classical.log_sigma_px: should be 0.5 to 10");
+  }
+  const double smoothing = options.canny_sigma_px;
+  if (smoothing != 0 && !(smoothing >= 0.3 && smoothing <= 20)) {
+    return wrong("classical.canny_sigma_px: should be 0 or 0.3 to 20");
+  }
+  const int side = options.log_kernel_px;
+  if (side != 0 && (side < 3 || side > 61 || side % 2 == 0)) {
+    return wrong("classical.log_kernel_px: should be 0 or an odd number from 3 to 61");
+  }
+  return {};
+}
+
+ClassicalDetector::ClassicalDetector(const ClassicalOptions& options)
+    : options_(options), smoother_(smoothing(options.canny_sigma_px)), canny_(options.canny) {}
+
 Status ClassicalDetector::run(ImageView<const float> levels, ClassicalMethod method,
                               ImageView<std::uint8_t> edges, Runner& runner) {
-  if (Status status = check(levels, edges, options_); !status) {
+  const Status status =
+      check_options(options_).and_then([&] { return check_frame(levels, edges); });
+  if (!status) {
     return status;
   }
   switch (method) {
@@ -259,9 +279,10 @@ void ClassicalDetector::detect_by_log(ImageView<std::uint8_t> edges) {
 
 Status ClassicalDetector::detect_by_canny(ImageView<const float> levels,
                                           ImageView<std::uint8_t> edges, Runner& runner) {
-  return canny_.run(levels, runner).map([&](const CannyResult& found) {
-    copy_pixels(found.edges, edges);
-  });
+  smoothed_.resize(levels.width(), levels.height());
+  return smoother_.run(levels, 0, smoothed_, runner)
+      .and_then([&] { return canny_.run(smoothed_, runner); })
+      .map([&](const CannyResult& found) { copy_pixels(found.edges, edges); });
 }
 
 }  // namespace thermedge

@@ -34,6 +34,36 @@ constexpr std::int32_t kFar = std::numeric_limits<std::int32_t>::max();
 
 }  // namespace
 
+MapCount count_fragments(ImageView<const std::uint8_t> map) {
+  MapCount count;
+  Image<std::uint8_t> left(map.width(), map.height());
+  copy_pixels(map, left.view());
+  std::vector<Pixel> group;
+  for (int y = 0; y < map.height(); ++y) {
+    for (int x = 0; x < map.width(); ++x) {
+      if (left(x, y) == 0) {
+        continue;
+      }
+      ++count.fragments;
+      left(x, y) = 0;
+      group.assign(1, {x, y});
+      for (std::size_t i = 0; i < group.size(); ++i) {
+        const Pixel at = group[i];
+        for (int v = std::max(0, at.y - 1); v <= std::min(map.height() - 1, at.y + 1); ++v) {
+          for (int u = std::max(0, at.x - 1); u <= std::min(map.width() - 1, at.x + 1); ++u) {
+            if (left(u, v) != 0) {
+              left(u, v) = 0;
+              group.push_back({u, v});
+            }
+          }
+        }
+      }
+      count.edge_pixels += group.size();
+    }
+  }
+  return count;
+}
+
 void draw_mask(const EdgeSet& edges, ImageView<std::uint8_t> mask) {
   draw(edges, edges.kept, mask, [](const Edge&) { return std::uint8_t{255}; });
 }

@@ -7,6 +7,7 @@
 #include <new>
 #include <utility>
 
+#include "denoiser_names.hpp"
 #include "frame_panels.hpp"
 #include "thermedge/detector.hpp"
 #include "thermedge/fields.hpp"
@@ -24,20 +25,6 @@ struct Denoised {
   Image<std::uint8_t> levels;
   double ms = 0;
 };
-
-std::string_view display_name(DenoiseMethod method) {
-  switch (method) {
-    case DenoiseMethod::kNone:
-      return "not denoised";
-    case DenoiseMethod::kGaussian:
-      return "Gaussian";
-    case DenoiseMethod::kNlm:
-      return "NL-means";
-    case DenoiseMethod::kBm3d:
-      return "BM3D";
-  }
-  return "";
-}
 
 std::string plural(std::size_t count, std::string_view one) {
   return fmt::format("{} {}{}", count, one, count == 1 ? "" : "s");

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "thermedge/canny.hpp"
+#include "thermedge/denoise.hpp"
 #include "thermedge/image.hpp"
 #include "thermedge/parallel.hpp"
 #include "thermedge/result.hpp"
@@ -29,7 +30,7 @@ inline constexpr std::array kClassicalMethods = {
 
 struct ClassicalOptions {
   // Gradient magnitude (levels per px) or |LoG| (levels per px^2) above which a pixel may be an
-  // edge, >= 0; 0: automatic, from the mean over the frame. Canny has its own.
+  // edge, >= 0; 0: automatic, from the mean over the frame.
   double threshold = 0;
   bool thinning = true;     // Prewitt, Roberts, Sobel: keep maxima along the row or the column only
   double log_sigma_px = 2;  // 0.5..10 px
@@ -38,21 +39,25 @@ struct ClassicalOptions {
   // brightness, and the frame is surrounded by zeros. Else the kernel is made free of a mean and
   // the border replicated, as MATLAB does; that finds more.
   bool log_as_octave = false;
-  CannyOptions canny = {};
+  double canny_sigma_px = 1.4142;  // Gaussian in front of Canny, 0.3..20 px; 0: none
+  CannyOptions canny = {};         // `threshold` above is not for Canny
 };
+
+// Fails on the first option out of range.
+[[nodiscard]] Status check_options(const ClassicalOptions& options);
 
 // `edge` of MATLAB and of GNU Octave, on grey levels.
 // Prewitt, Roberts, Sobel: borders replicated; automatic threshold sqrt(k * mean squared magnitude)
 // with k = 4 (Roberts: 6, as both programs have it); thinned: a pixel stays where it is above both
 // neighbours in its row or both in its column, pixels under the threshold counting as 0.
 // LoG: a pixel that has a neighbour < 0 beside, above or below it is an edge where its LoG is above
-// 0.75 times the mean of |LoG|. Canny: class Canny.
-// One object per thread; allocates on the first frame of a size only. The result is bit-identical
-// for every Runner and SIMD target. Cost at 382x288 on one thread: 0.2 to 0.3 ms, LoG 2.5 ms.
+// 0.75 times the mean of |LoG|. Canny: a Gaussian of sigma sqrt(2), then class Canny, whose rule
+// for the thresholds is MATLAB's. One object per thread; allocates on the first frame of a size
+// only. The result is bit-identical for every Runner and SIMD target. Cost at 382x288 on one
+// thread: 0.2 to 0.3 ms, LoG 2.5 ms.
 class ClassicalDetector {
  public:
-  explicit ClassicalDetector(const ClassicalOptions& options = {})
-      : options_(options), canny_(options.canny) {}
+  explicit ClassicalDetector(const ClassicalOptions& options = {});
 
   // `levels` -> `edges` (255 edge, 0 none), same size. Errors: empty frame, sizes differ, an option
   // out of range, a pixel that is NaN, infinite or beyond 1e9.
@@ -70,7 +75,9 @@ class ClassicalDetector {
                          Runner& runner);
 
   ClassicalOptions options_;
+  Denoiser smoother_;
   Canny canny_;
+  Image<float> smoothed_;
   Image<double> bordered_;  // the levels with a margin
   Image<double> response_;  // squared gradient with a margin of 1, or LoG
   Image<double> rows_;      // levels filtered along the rows

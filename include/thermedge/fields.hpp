@@ -1,6 +1,7 @@
 // Dense pictures of a result: mask, ids, ranks, distances.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -21,6 +22,14 @@ void draw_labels(const EdgeSet& edges, ImageView<std::uint16_t> labels);
 
 // Rank of all edges, kept or not, mapped to 255 (best) .. 1 (last), 0 elsewhere.
 void draw_strength(const EdgeSet& edges, ImageView<std::uint8_t> strength);
+
+// What a binary map consists of: its edge pixels (nonzero) and the groups of them that touch each
+// other (8-connected). Many groups for few pixels: broken edges or noise. Thread-safe.
+struct MapCount {
+  std::size_t edge_pixels = 0;
+  std::size_t fragments = 0;
+};
+[[nodiscard]] MapCount count_fragments(ImageView<const std::uint8_t> map);
 
 // Exact Euclidean distance to the kept edges and who is nearest.
 struct DistanceField {

@@ -170,11 +170,16 @@ TEST(Classical, LogEqualsTheDefinitionForEveryKernel) {
   expect_edges(image, ClassicalMethod::kLog, options, slow_log(image, 1.2, 9));
 }
 
-TEST(Classical, CannyIsTheOneOfTheDetector) {
+TEST(Classical, CannyIsTheOneOfTheDetectorBehindAGaussian) {
   const Image<float> image = whole_levels(60, 40, 7);
   const auto runner = make_runner(1);
+  DenoiseOptions gaussian;
+  gaussian.method = DenoiseMethod::kGaussian;
+  gaussian.gaussian.sigma_px = 1.4142;
+  Image<float> smooth(60, 40);
+  ASSERT_TRUE(Denoiser(gaussian).run(image, 0, smooth, *runner));
   Canny canny{CannyOptions{}};
-  const auto wanted = canny.run(image, *runner);
+  const auto wanted = canny.run(smooth, *runner);
   ASSERT_TRUE(wanted);
   Image<std::uint8_t> edges(60, 40);
   ASSERT_TRUE(ClassicalDetector().run(image, ClassicalMethod::kCanny, edges, *runner));
@@ -252,7 +257,8 @@ TEST(Classical, RefusesBadInput) {
   for (const ClassicalOptions& options :
        {ClassicalOptions{.threshold = -1}, ClassicalOptions{.threshold = nan},
         ClassicalOptions{.log_sigma_px = 0}, ClassicalOptions{.log_sigma_px = nan},
-        ClassicalOptions{.log_kernel_px = 8}, ClassicalOptions{.log_kernel_px = 999}}) {
+        ClassicalOptions{.log_kernel_px = 8}, ClassicalOptions{.canny_sigma_px = -1},
+        ClassicalOptions{.log_kernel_px = 999}}) {
     const Status status =
         ClassicalDetector(options).run(image, ClassicalMethod::kLog, edges, *runner);
     ASSERT_FALSE(status);

@@ -6,6 +6,7 @@
 #include <new>
 
 #include "support/images.hpp"
+#include "thermedge/classical.hpp"
 #include "thermedge/detector.hpp"
 #include "thermedge/fields.hpp"
 #include "thermedge/sim/scene.hpp"
@@ -98,6 +99,23 @@ INSTANTIATE_TEST_SUITE_P(
                                      DenoiseMethod::kNlm, DenoiseMethod::kBm3d),
                      testing::Values(1, 2)),
     name_of);
+
+TEST(Allocation, ClassicalDetectorsAllocateOnTheFirstFrameOnly) {
+  ClassicalDetector detector;
+  const auto runner = make_runner(1);
+  Image<std::uint8_t> edges(160, 120);
+  for (const ClassicalName& known : kClassicalMethods) {
+    Image<float> levels(160, 120);
+    long spent = 0;
+    for (const auto& frame : growing_frames()) {
+      copy_pixels(frame.view(), levels.view());
+      const long before = allocations;
+      ASSERT_TRUE(detector.run(levels, known.method, edges, *runner));
+      spent = allocations - before;
+    }
+    EXPECT_EQ(spent, 0) << known.name;
+  }
+}
 
 TEST(Allocation, TheCounterCounts) {
   const long before = allocations;

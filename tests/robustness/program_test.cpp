@@ -135,6 +135,54 @@ TEST_F(Program, ReadsRawFramesFromStandardInput) {
   EXPECT_EQ(count_lines(result.out), 2U);
 }
 
+TEST_F(Program, StagesWritesASheetAndEveryStep) {
+  const auto result = run(std::string("stages ") + kScene + kQuick + "-o out");
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(result.out + result.err, "");
+  std::size_t files = 0;
+  for (const auto& entry : fs::directory_iterator(directory_ / "out" / "desk")) {
+    EXPECT_EQ(entry.path().extension(), ".png");
+    ++files;
+  }
+  EXPECT_EQ(files, 14U);  // the sheet, ten steps and three denoisers
+  for (const std::string name : {"sheet.png", "sheet.svg", "sheet.pdf"}) {
+    EXPECT_EQ(run(std::string("stages ") + kScene + kQuick + "-o " + name).exit_code, 0);
+    EXPECT_GT(fs::file_size(directory_ / name), 1000U);
+  }
+}
+
+TEST_F(Program, CompareWritesASheetAndSingleMaps) {
+  const auto result =
+      run(std::string("compare ") + kScene + " --set denoise.method=gaussian -o x.png --write");
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  for (const std::string name :
+       {"x", "x_prewitt", "x_roberts", "x_sobel", "x_log", "x_canny", "x_thermedge"}) {
+    EXPECT_TRUE(fs::exists(directory_ / (name + ".png"))) << name;
+  }
+  const auto map = io::read_picture((directory_ / "x_sobel.png").string());
+  ASSERT_TRUE(map);
+  EXPECT_EQ(map->counts.width(), 96);
+
+  const auto some =
+      run("compare 'sim:desk?width=96&height=72&frames=2' --set "
+          "denoise.method=gaussian --denoise gaussian -o out --write log");
+  ASSERT_EQ(some.exit_code, 0) << some.err;
+  for (const std::string stem : {"desk_0000", "desk_0001"}) {
+    EXPECT_TRUE(fs::exists(directory_ / "out" / stem / "sheet.png"));
+    EXPECT_TRUE(fs::exists(directory_ / "out" / stem / "log.png"));
+    EXPECT_FALSE(fs::exists(directory_ / "out" / stem / "canny.png"));
+  }
+}
+
+TEST_F(Program, ASheetHoldsOneFrame) {
+  const auto result =
+      run("stages 'sim:desk?width=96&height=72&frames=2' " + std::string(kQuick) + "-o one.png");
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(count_lines(result.err), 1U) << result.err;
+  EXPECT_NE(result.err.find("one.png"), std::string::npos);
+  EXPECT_TRUE(fs::exists(directory_ / "one.png"));
+}
+
 TEST_F(Program, DumpedConfigurationIsReadBack) {
   const auto dumped = run("detect --set contours.gap_px=2 --keep 7 --dump-config");
   ASSERT_EQ(dumped.exit_code, 0);
@@ -157,6 +205,11 @@ TEST_F(Program, BadUsageIsOneLineAndExitsWith2) {
            BadUsage{"detect " + scene + " -o out --write mask,magic", "magic"},
            BadUsage{"detect " + scene + " --write mask", "-o DIR"},
            BadUsage{"detect", "INPUT"},
+           BadUsage{"stages " + scene, "-o"},
+           BadUsage{"stages -o x.png", "INPUT"},
+           BadUsage{"compare " + scene, "-o"},
+           BadUsage{"compare " + scene + " -o x.png --write magic", "--write magic"},
+           BadUsage{"compare " + scene + " -o x.png --log-kernel 8", "log_kernel"},
            BadUsage{"scale - --raw-size 3by4 -o x.png", "--raw-size 3by4"},
        }) {
     const auto result = run(usage.arguments);

@@ -187,5 +187,25 @@ TEST(Drawing, OfNothingClearsTheImage) {
   expect_pixels(mask.view(), {{0, 0, 0}, {0, 0, 0}});
 }
 
+// A map drawn as text, '#' for an edge pixel.
+MapCount count(const std::vector<std::string>& rows) {
+  Image<std::uint8_t> map(static_cast<int>(rows[0].size()), static_cast<int>(rows.size()));
+  for (int y = 0; y < map.height(); ++y) {
+    for (int x = 0; x < map.width(); ++x) {
+      map(x, y) = rows[static_cast<std::size_t>(y)][static_cast<std::size_t>(x)] == '#' ? 255 : 0;
+    }
+  }
+  return count_fragments(map);
+}
+
+TEST(Fragments, AreGroupsOfTouchingPixels) {
+  const MapCount found = count({"#.#..##", ".#....#", "#......", "....#..", "...#..#"});
+  EXPECT_EQ(found.edge_pixels, 10U);
+  EXPECT_EQ(found.fragments, 4U);  // corners touch
+  EXPECT_EQ(count({"....", "...."}).fragments, 0U);
+  EXPECT_EQ(count({"###", "###"}).fragments, 1U);
+  EXPECT_EQ(count({"###", "###"}).edge_pixels, 6U);
+}
+
 }  // namespace
 }  // namespace thermedge

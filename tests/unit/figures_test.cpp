@@ -11,6 +11,8 @@
 #include "sheet.hpp"
 #include "support/files.hpp"
 #include "support/images.hpp"
+#include "thermedge/fields.hpp"
+#include "thermedge/figures/comparison_sheet.hpp"
 #include "thermedge/figures/stages_sheet.hpp"
 #include "thermedge/io/overlay.hpp"
 #include "thermedge/sim/scene.hpp"
@@ -244,6 +246,12 @@ TEST(Sheet, PanelsHaveAWholeNumberOfPointsAPixel) {
   EXPECT_EQ(panel_width_for(1920), 760);
 }
 
+Image<std::uint16_t> small_desk() {
+  auto scene = sim::render({.camera = {.width = 96, .height = 72}}, 0);
+  EXPECT_TRUE(scene);
+  return std::move(scene->counts);
+}
+
 class Stages : public testing::Test {
  protected:
   static DetectorOptions quick() {
@@ -258,9 +266,7 @@ class Stages : public testing::Test {
 TEST_F(Stages, DrawEveryStepOfTheSimulatedDesk) {
   auto sheet = StagesSheet::create(quick());
   ASSERT_TRUE(sheet);
-  const auto scene = sim::render({.camera = {.width = 96, .height = 72}}, 0);
-  ASSERT_TRUE(scene);
-  const auto made = sheet->draw(scene->counts, 16, "desk");
+  const auto made = sheet->draw(small_desk(), 16, "desk");
   ASSERT_TRUE(made);
   std::vector<std::string> names;
   for (const NamedFigure& step : made->steps) {
@@ -304,6 +310,69 @@ TEST_F(Stages, RefuseOptionsOutOfRange) {
   const auto sheet = StagesSheet::create(options);
   ASSERT_FALSE(sheet);
   EXPECT_NE(sheet.error().message.find("gain"), std::string::npos);
+}
+
+TEST(ComparisonSheet, HoldsTheMapsOfEachDetector) {
+  ComparisonOptions options;
+  options.detector.denoise.method = DenoiseMethod::kGaussian;
+  options.detector.contours.min_component_px = 10;
+  auto sheet = ComparisonSheet::create(options);
+  ASSERT_TRUE(sheet);
+  const Image<std::uint16_t> frame = small_desk();
+  const auto made = sheet->draw(frame, 16, "desk");
+  ASSERT_TRUE(made);
+  EXPECT_TRUE(made->sheet.rasterise());
+  ASSERT_EQ(made->maps.size(), 6U);
+
+  auto detector = Detector::create(options.detector);
+  const auto detection = detector->detect(frame);
+  Image<float> levels(96, 72);
+  copy_pixels((*detection)->levels, levels.view());
+  Image<std::uint8_t> wanted(96, 72);
+  for (std::size_t i = 0; i < 6; ++i) {
+    const ComparedMap& map = made->maps[i];
+    if (i < 5) {
+      EXPECT_EQ(map.name, kClassicalMethods[i].name);
+      ASSERT_TRUE(
+          ClassicalDetector().run(levels, kClassicalMethods[i].method, wanted, *make_runner(1)));
+    } else {
+      EXPECT_EQ(map.name, "thermedge");
+      draw_mask((*detection)->edges, wanted);
+    }
+    EXPECT_TRUE(test::same_pixels<std::uint8_t>(map.edges.view(), wanted.view())) << map.name;
+    EXPECT_EQ(map.edge_pixels, count_fragments(wanted.view()).edge_pixels);
+    EXPECT_EQ(map.fragments, count_fragments(wanted.view()).fragments);
+    EXPECT_GT(map.edge_pixels, 50U);
+    EXPECT_GT(map.ms, 0);
+  }
+}
+
+TEST(ComparisonSheet, DenoisesInFrontOfTheClassicalDetectors) {
+  const auto noisy = sim::render({.camera = {.width = 160, .height = 120, .sigma_counts = 25}}, 0);
+  ASSERT_TRUE(noisy);
+  std::size_t fragments[2] = {};
+  for (const auto method : {DenoiseMethod::kNone, DenoiseMethod::kNlm}) {
+    ComparisonOptions options;
+    options.detector.denoise.method = DenoiseMethod::kGaussian;
+    options.classical_denoiser = method;
+    auto sheet = ComparisonSheet::create(options);
+    ASSERT_TRUE(sheet);
+    const auto made = sheet->draw(noisy->counts, 16, "desk");
+    ASSERT_TRUE(made);
+    fragments[method == DenoiseMethod::kNlm ? 1 : 0] = made->maps[2].fragments;
+  }
+  EXPECT_LT(2 * fragments[1], fragments[0]);
+}
+
+TEST(ComparisonSheet, TakesFramesOfEverySize) {
+  ComparisonOptions options;
+  options.detector.denoise.method = DenoiseMethod::kNone;
+  auto sheet = ComparisonSheet::create(options);
+  ASSERT_TRUE(sheet);
+  for (const int size : {1, 2, 9}) {
+    EXPECT_TRUE(sheet->draw(test::noise_image<std::uint16_t>(size, 5, 128, 30, 2), 8, "noise"));
+  }
+  EXPECT_FALSE(sheet->draw(ImageView<const std::uint16_t>(), 16, "nothing"));
 }
 
 }  // namespace

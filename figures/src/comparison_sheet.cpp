@@ -1,0 +1,231 @@
+#include "thermedge/figures/comparison_sheet.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <new>
+#include <utility>
+
+#include "denoiser_names.hpp"
+#include "frame_panels.hpp"
+#include "thermedge/denoise.hpp"
+#include "thermedge/detector.hpp"
+#include "thermedge/fields.hpp"
+
+namespace thermedge::figures {
+namespace {
+
+constexpr int kColumns = 4;
+constexpr int kRuns = 5;
+
+double median(std::array<double, kRuns> values) {
+  std::nth_element(values.begin(), values.begin() + kRuns / 2, values.end());
+  return values[kRuns / 2];
+}
+
+// Median time of `work`, which is run once more before, so that it has its memory. ms.
+Result<double> timed(const std::function<Status()>& work) {
+  if (Status status = work(); !status) {
+    return tl::unexpected(status.error());
+  }
+  std::array<double, kRuns> ms{};
+  for (double& run : ms) {
+    const auto start = std::chrono::steady_clock::now();
+    if (Status status = work(); !status) {
+      return tl::unexpected(status.error());
+    }
+    run =
+        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  }
+  return median(ms);
+}
+
+void count(ComparedMap& map) {
+  const MapCount found = count_fragments(map.edges.view());
+  map.edge_pixels = found.edge_pixels;
+  map.fragments = found.fragments;
+}
+
+double fragments_per_1000(const ComparedMap& map) {
+  return map.edge_pixels > 0
+             ? 1000.0 * static_cast<double>(map.fragments) / static_cast<double>(map.edge_pixels)
+             : 0;
+}
+
+Panel map_panel(const ComparedMap& map) {
+  return {.title = map.display,
+          .note = fmt::format("{} edge pixels, {} fragments, {:.1f} ms", map.edge_pixels,
+                              map.fragments, map.ms),
+          .aspect = static_cast<double>(map.edges.height()) / map.edges.width(),
+          .draw = map_picture(map.edges.view())};
+}
+
+Panel table_panel(std::span<const ComparedMap> maps, double aspect) {
+  std::vector<TableRow> rows = {{{"detector", "pixels", "fragments", "/1000 px", "ms"}, false}};
+  for (const ComparedMap& map : maps) {
+    rows.push_back(
+        {{map.display, fmt::format("{}", map.edge_pixels), fmt::format("{}", map.fragments),
+          fmt::format("{:.1f}", fragments_per_1000(map)), fmt::format("{:.1f}", map.ms)},
+         &map == &maps.back()});
+  }
+  return {.title = "In numbers",
+          .note =
+              "Fragments: groups of touching edge pixels. Time: from the frame to the map, "
+              "median of five runs on this machine.",
+          .aspect = aspect,
+          .bordered = false,
+          .draw = [rows = std::move(rows)](Canvas& canvas, const Box& box) {
+            draw_table(canvas, box, rows, 0.3);
+          }};
+}
+
+}  // namespace
+
+struct ComparisonSheet::Impl {
+  explicit Impl(const ComparisonOptions& chosen, Detector made)
+      : options(chosen),
+        runner(make_runner(chosen.detector.threads)),
+        detector(std::move(made)),
+        denoiser(with_method(chosen.detector.denoise, chosen.classical_denoiser)),
+        classical(chosen.classical) {}
+
+  static DenoiseOptions with_method(DenoiseOptions options, DenoiseMethod method) {
+    options.method = method;
+    return options;
+  }
+
+  Result<ComparedMap> run_classical(const ClassicalName& method, ImageView<const float> levels,
+                                    double sigma_levels);
+  Result<ComparedMap> run_ours(ImageView<const std::uint16_t> frame, int bits);
+  Result<Comparison> draw(ImageView<const std::uint16_t> frame, int bits,
+                          const std::string& source);
+  [[nodiscard]] Figure sheet(const Detection& detection, std::span<const ComparedMap> maps,
+                             const std::string& source) const;
+
+  ComparisonOptions options;
+  std::unique_ptr<Runner> runner;
+  Detector detector;
+  Denoiser denoiser;
+  ClassicalDetector classical;
+};
+
+Result<ComparedMap> ComparisonSheet::Impl::run_classical(const ClassicalName& method,
+                                                         ImageView<const float> levels,
+                                                         double sigma_levels) {
+  ComparedMap map;
+  map.name = method.name;
+  map.display = method.display;
+  map.edges.resize(levels.width(), levels.height());
+  Image<float> denoised(levels.width(), levels.height());
+  return timed([&] {
+           return denoiser.run(levels, sigma_levels, denoised, *runner).and_then([&] {
+             return classical.run(denoised, method.method, map.edges, *runner);
+           });
+         })
+      .map([&](double ms) {
+        map.ms = ms;
+        count(map);
+        return std::move(map);
+      });
+}
+
+Result<ComparedMap> ComparisonSheet::Impl::run_ours(ImageView<const std::uint16_t> frame,
+                                                    int bits) {
+  ComparedMap map;
+  map.name = "thermedge";
+  map.display = fmt::format("thermedge ({})", preset_name(options.detector.preset));
+  map.edges.resize(frame.width(), frame.height());
+  return timed([&] {
+           return detector.detect(frame, bits).map([&](const Detection* found) {
+             draw_mask(found->edges, map.edges);
+           });
+         })
+      .map([&](double ms) {
+        map.ms = ms;
+        count(map);
+        return std::move(map);
+      });
+}
+
+Result<Comparison> ComparisonSheet::Impl::draw(ImageView<const std::uint16_t> frame, int bits,
+                                               const std::string& source) {
+  const auto detection = detector.detect(frame, bits);
+  if (!detection) {
+    return tl::unexpected(detection.error());
+  }
+  Image<float> levels(frame.width(), frame.height());
+  copy_pixels((*detection)->levels, levels.view());
+  const double gain = bits == 8 ? 1 : options.detector.scale.gain;
+  const double sigma_levels = (*detection)->sigma_counts * gain;
+
+  std::vector<ComparedMap> maps;
+  for (const ClassicalName& method : kClassicalMethods) {
+    auto map = run_classical(method, levels.view(), sigma_levels);
+    if (!map) {
+      return tl::unexpected(map.error());
+    }
+    maps.push_back(std::move(*map));
+  }
+  auto ours = run_ours(frame, bits);
+  if (!ours) {
+    return tl::unexpected(ours.error());
+  }
+  maps.push_back(std::move(*ours));
+  Figure drawn = sheet(**detection, maps, source);
+  return Comparison{std::move(drawn), std::move(maps)};
+}
+
+// The frame and the numbers to the left of the six maps.
+Figure ComparisonSheet::Impl::sheet(const Detection& detection, std::span<const ComparedMap> maps,
+                                    const std::string& source) const {
+  const double aspect = static_cast<double>(detection.height) / detection.width;
+  std::vector<Panel> panels = {
+      {.title = "Frame",
+       .note = fmt::format("{} x {} pixels, noise sigma {:.1f} counts", detection.width,
+                           detection.height, detection.noise.sigma_counts),
+       .aspect = aspect,
+       .draw = frame_picture(detection.corrected)}};
+  for (std::size_t i = 0; i < maps.size(); ++i) {
+    if (i == 3) {
+      panels.push_back(table_panel(maps, aspect));
+    }
+    panels.push_back(map_panel(maps[i]));
+  }
+  const bool plain = options.classical_denoiser == DenoiseMethod::kNone;
+  const SheetText text = {
+      .title = "Edge detectors compared",
+      .subtitle =
+          fmt::format("{}; the classical detectors run on its 8-bit view{}", source,
+                      plain ? std::string(", not denoised")
+                            : fmt::format(" behind {}", display_name(options.classical_denoiser))),
+      .footer =
+          "After figures 14 and 15 of Vu Hoang Minh et al. 2017. The classical detectors are "
+          "those of MATLAB's edge with its automatic thresholds."};
+  return make_sheet(text, panels, kColumns, panel_width_for(detection.width));
+}
+
+Result<ComparisonSheet> ComparisonSheet::create(const ComparisonOptions& options) {
+  return check_options(options.classical)
+      .and_then([&] { return Detector::create(options.detector); })
+      .map([&](Detector&& detector) {
+        return ComparisonSheet(std::make_unique<Impl>(options, std::move(detector)));
+      });
+}
+
+ComparisonSheet::ComparisonSheet(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+ComparisonSheet::ComparisonSheet(ComparisonSheet&&) noexcept = default;
+ComparisonSheet& ComparisonSheet::operator=(ComparisonSheet&&) noexcept = default;
+ComparisonSheet::~ComparisonSheet() = default;
+
+Result<Comparison> ComparisonSheet::draw(ImageView<const std::uint16_t> frame, int bits,
+                                         const std::string& source) {
+  try {
+    return impl_->draw(frame, bits, source);
+  } catch (const std::bad_alloc&) {
+    return failure(ErrorCode::kOutOfMemory, "comparison: out of memory");
+  }
+}
+
+}  // namespace thermedge::figures
