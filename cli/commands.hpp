@@ -11,5 +11,6 @@ void add_scale(CLI::App& program, int& exit_code);
 void add_denoise(CLI::App& program, int& exit_code);
 void add_stages(CLI::App& program, int& exit_code);
 void add_compare(CLI::App& program, int& exit_code);
+void add_bench(CLI::App& program, int& exit_code);
 
 }  // namespace thermedge::cli

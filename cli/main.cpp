@@ -24,6 +24,7 @@ int run(int argc, char** argv) {
   add_denoise(program, exit_code);
   add_stages(program, exit_code);
   add_compare(program, exit_code);
+  add_bench(program, exit_code);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

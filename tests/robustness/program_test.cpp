@@ -174,6 +174,42 @@ TEST_F(Program, CompareWritesASheetAndSingleMaps) {
   }
 }
 
+TEST_F(Program, BenchTimesEveryStage) {
+  const auto result = run("bench 'sim:desk?width=96&height=72&frames=3' " + std::string(kQuick) +
+                          "--threads 1 --seconds 0 --json");
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto json = nlohmann::json::parse(result.out);
+  EXPECT_EQ(json["width"], 96);
+  EXPECT_EQ(json["height"], 72);
+  EXPECT_EQ(json["threads"], 1);
+  EXPECT_EQ(json["frames"], 3);
+  EXPECT_EQ(json["stages"].size(), 10U);
+  double sum = 0;
+  for (const auto& [name, stage] : json["stages"].items()) {
+    EXPECT_GE(stage["p99_ms"], stage["median_ms"]) << name;
+    sum += stage["median_ms"].get<double>();
+  }
+  const double total = json["total"]["median_ms"];
+  EXPECT_GT(total, 0.5 * sum);
+  EXPECT_NEAR(json["fps"], 1000 / total, 1e-6);
+
+  const auto table = run(std::string("bench ") + kScene + kQuick + "--seconds 0");
+  EXPECT_EQ(table.exit_code, 0);
+  for (const std::string word : {"96x72", "denoise", "total", "frames a second"}) {
+    EXPECT_NE(table.out.find(word), std::string::npos) << word;
+  }
+}
+
+TEST_F(Program, BenchLeavesFramesOfAnotherSizeOut) {
+  EXPECT_EQ(run("scale 'sim:desk?width=64&height=48' -o other.pgm").exit_code, 0);
+  const auto result =
+      run(std::string("bench ") + kScene + " other.pgm " + kQuick + "--seconds 0 --json");
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(count_lines(result.err), 1U) << result.err;
+  EXPECT_NE(result.err.find("other.pgm: 64x48"), std::string::npos) << result.err;
+  EXPECT_EQ(nlohmann::json::parse(result.out)["frames"], 1);
+}
+
 TEST_F(Program, ASheetHoldsOneFrame) {
   const auto result =
       run("stages 'sim:desk?width=96&height=72&frames=2' " + std::string(kQuick) + "-o one.png");
@@ -208,6 +244,8 @@ TEST_F(Program, BadUsageIsOneLineAndExitsWith2) {
            BadUsage{"stages " + scene, "-o"},
            BadUsage{"stages -o x.png", "INPUT"},
            BadUsage{"compare " + scene, "-o"},
+           BadUsage{"bench " + scene + " -o x.json", "-o"},
+           BadUsage{"bench " + scene + " --seconds -1", "--seconds"},
            BadUsage{"compare " + scene + " -o x.png --write magic", "--write magic"},
            BadUsage{"compare " + scene + " -o x.png --log-kernel 8", "log_kernel"},
            BadUsage{"scale - --raw-size 3by4 -o x.png", "--raw-size 3by4"},
