@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
 
 #include "commands.hpp"
 #include "common.hpp"
@@ -14,6 +16,7 @@
 #include "thermedge/noise.hpp"
 #include "thermedge/nuc.hpp"
 #include "thermedge/radiometry.hpp"
+#include "thermedge/stable_view.hpp"
 
 namespace thermedge::cli {
 namespace {
@@ -40,6 +43,13 @@ class PictureOutput {
     return output_;
   }
 
+  // A file for the whole run: in the directory, or beside the one picture with its name in front.
+  [[nodiscard]] std::string beside(const std::string& name) const {
+    const std::filesystem::path output(output_);
+    return one_file_ ? (output.parent_path() / (output.stem().string() + "_" + name)).string()
+                     : (output / name).string();
+  }
+
  private:
   std::string output_;
   OutputDirectory directory_;
@@ -49,26 +59,98 @@ class PictureOutput {
 
 struct ScaleCommand {
   CommonOptions common;
-  ScaleOptions scale;
+  std::optional<double> gain;
+  bool stable = false;
+  StableViewOptions view;
 
-  int run() const {
-    Report report = common.report();
-    const auto source = common.prepare();
-    if (!source) {
-      return report.fail(source.error());
-    }
-    PictureOutput output(common.output);
-    Image<std::uint8_t> levels;
-    return for_each_frame(common, *source, report, [&](const io::Frame& frame) -> Status {
-      levels.resize(frame.counts.width(), frame.counts.height());
-      return scale_to_8bit(frame.counts, scale, levels)
-          .and_then([&] { return output.path(frame.stem); })
-          .and_then([&](const std::string& path) {
-            return io::write_picture(path, ImageView<const std::uint8_t>(levels.view()));
-          });
-    });
-  }
+  [[nodiscard]] int run() const;
+
+ private:
+  [[nodiscard]] Status write(const io::Frame& frame, ImageView<std::uint8_t> levels,
+                             PictureOutput& output) const;
+  [[nodiscard]] int run_algorithm1(const io::SourceOptions& source, Report& report) const;
+  [[nodiscard]] int run_stable(const io::SourceOptions& source, Report& report) const;
 };
+
+Status ScaleCommand::write(const io::Frame& frame, ImageView<std::uint8_t> levels,
+                           PictureOutput& output) const {
+  return output.path(frame.stem).and_then([&](const std::string& path) {
+    return io::write_picture(path, ImageView<const std::uint8_t>(levels));
+  });
+}
+
+int ScaleCommand::run_algorithm1(const io::SourceOptions& source, Report& report) const {
+  ScaleOptions options;
+  options.gain = gain.value_or(options.gain);
+  if (const Status status = check_ranges(options, "scale."); !status) {
+    return report.fail(status.error());
+  }
+  PictureOutput output(common.output);
+  Image<std::uint8_t> levels;
+  return for_each_frame(common, source, report, [&](const io::Frame& frame) -> Status {
+    levels.resize(frame.counts.width(), frame.counts.height());
+    return scale_to_8bit(frame.counts, options, levels).and_then([&] {
+      return write(frame, levels, output);
+    });
+  });
+}
+
+std::string_view event_name(ViewEvent event) {
+  switch (event) {
+    case ViewEvent::kNone:
+      break;
+    case ViewEvent::kStart:
+      return "start";
+    case ViewEvent::kSceneCut:
+      return "scene_cut";
+  }
+  return "";
+}
+
+std::string state_line(const io::Frame& frame, std::int64_t index, const ViewState& state) {
+  const std::string_view event = event_name(state.event);
+  const nlohmann::ordered_json line = {
+      {"source", frame.source},
+      {"index", index},
+      {"gain", state.gain},
+      {"offset", state.offset},
+      {"clipped_low_share", state.clipped_low_share},
+      {"clipped_high_share", state.clipped_high_share},
+      {"event", event.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(event)}};
+  return line.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+// What the view did with each frame is written even where some frames were bad.
+int ScaleCommand::run_stable(const io::SourceOptions& source, Report& report) const {
+  StableViewOptions options = view;
+  options.gain = gain.value_or(options.gain);
+  if (const Status status = check_options(options); !status) {
+    return report.fail(status.error());
+  }
+  PictureOutput output(common.output);
+  StableView stable_view(options);
+  Image<std::uint8_t> levels;
+  std::string lines;
+  std::int64_t index = 0;
+  const int code = for_each_frame(common, source, report, [&](const io::Frame& frame) -> Status {
+    levels.resize(frame.counts.width(), frame.counts.height());
+    return stable_view.run(frame.counts, levels).and_then([&](const ViewState& state) {
+      lines += state_line(frame, index++, state);
+      return write(frame, levels, output);
+    });
+  });
+  const Status status = io::write_file(output.beside("scale.jsonl"), lines);
+  return status ? code : report.fail(status.error());
+}
+
+int ScaleCommand::run() const {
+  Report report = common.report();
+  const auto source = common.prepare();
+  if (!source) {
+    return report.fail(source.error());
+  }
+  return stable ? run_stable(*source, report) : run_algorithm1(*source, report);
+}
 
 // Dead pixels, noise, denoiser: counts in, counts out.
 class CountsDenoiser {
@@ -176,9 +258,21 @@ void add_scale(CLI::App& program, int& exit_code) {
   auto command = std::make_shared<ScaleCommand>();
   command->common.add_to(app);
   app.get_option("-o")->required();
-  app.add_option("--gain", command->scale.gain, "grey levels per count")
-      ->check(CLI::Range(1e-6, 1000.0))
-      ->capture_default_str();
+  app.add_option("--gain", command->gain,
+                 "grey levels per count (default 0.5; with --stable 0.2, and 0: from the noise)")
+      ->check(CLI::Range(0.0, 1000.0));
+  CLI::Option* stable = app.add_flag(
+      "--stable", command->stable,
+      "a view that does not flicker: its centre is held; gain, offset and events in scale.jsonl");
+  app.add_option("--dead-band", command->view.dead_band_levels,
+                 "levels that the median may move before the view follows")
+      ->check(CLI::Range(0.0, 127.0))
+      ->capture_default_str()
+      ->needs(stable);
+  app.add_option("--slew", command->view.slew_levels, "levels a frame that the view may move")
+      ->check(CLI::Range(0.0, 255.0))
+      ->capture_default_str()
+      ->needs(stable);
   app.callback([command, &exit_code] { exit_code = command->run(); });
 }
 

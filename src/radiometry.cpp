@@ -13,6 +13,8 @@ namespace {
 
 constexpr std::size_t kCountValues = std::numeric_limits<std::uint16_t>::max() + std::size_t{1};
 
+constexpr double kMiddleLevel = 127;  // of the median (Algorithm 1)
+
 template <class T>
 std::string size_text(ImageView<T> image) {
   return std::to_string(image.width()) + "x" + std::to_string(image.height());
@@ -52,7 +54,8 @@ Status scale_to_8bit(ImageView<const std::uint16_t> frame, const ScaleOptions& o
   }
   const int median = median_counts(frame);
   for (int y = 0; y < frame.height(); ++y) {
-    detail::scale_row(frame.row(y), frame.width(), median, options.gain, levels.row(y));
+    detail::scale_row(frame.row(y), frame.width(), {median, kMiddleLevel, options.gain},
+                      levels.row(y));
   }
   return {};
 }

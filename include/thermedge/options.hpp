@@ -20,6 +20,7 @@
 #include "thermedge/radiometry.hpp"
 #include "thermedge/result.hpp"
 #include "thermedge/scoring.hpp"
+#include "thermedge/stable_view.hpp"
 
 namespace thermedge {
 
@@ -81,6 +82,16 @@ void visit_options(O& o, V&& v) {
 template <OptionsOf<ScaleOptions> O, class V>
 void visit_options(O& o, V&& v) {
   v("gain", o.gain, Bounds{1e-6, 1000}, "grey levels per count (0.5: 0.02 degC a level)");
+}
+
+template <OptionsOf<StableViewOptions> O, class V>
+void visit_options(O& o, V&& v) {
+  v("gain", o.gain, Bounds{0, 1000}, "grey levels per count (0: from the noise)");
+  v("dead_band_levels", o.dead_band_levels, Bounds{0, 127},
+    "levels that the median may move before the view follows");
+  v("slew_levels", o.slew_levels, Bounds{0, 255}, "levels a frame that the view may move");
+  v("cut_clipped_share", o.cut_clipped_share, Bounds{0, 1}, "clipped share that means a scene cut");
+  v("cut_frames", o.cut_frames, Bounds{1, 1000}, "clipped frames in a row that mean a scene cut");
 }
 
 template <OptionsOf<GaussianOptions> O, class V>

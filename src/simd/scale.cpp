@@ -17,13 +17,14 @@ namespace hn = hwy::HWY_NAMESPACE;
 // One vector of pixels. Double precision, because single precision puts products such as
 // 3 * (1 / 3) on the wrong side of a half.
 template <class D64>
-void scale_vector(D64 d64, const std::uint16_t* counts, int centre, double gain,
+void scale_vector(D64 d64, const std::uint16_t* counts, const Scaling& scaling,
                   std::uint8_t* levels) {
   const hn::Rebind<std::int32_t, D64> d32;
   const hn::Rebind<std::uint16_t, D64> d16;
   const hn::Rebind<std::uint8_t, D64> d8;
-  const auto deviation = hn::PromoteTo(d32, hn::LoadU(d16, counts)) - hn::Set(d32, centre);
-  const auto level = hn::PromoteTo(d64, deviation) * hn::Set(d64, gain) + hn::Set(d64, 127.0);
+  const auto deviation = hn::PromoteTo(d32, hn::LoadU(d16, counts)) - hn::Set(d32, scaling.anchor);
+  const auto level =
+      hn::PromoteTo(d64, deviation) * hn::Set(d64, scaling.gain) + hn::Set(d64, scaling.base_level);
   const auto clamped = hn::Min(hn::Max(level, hn::Zero(d64)), hn::Set(d64, 255.0));
   // Not floor(clamped + 0.5): that sum rounds, and the largest value below 0.5 would become 1.
   const auto whole = hn::Floor(clamped);
@@ -31,19 +32,19 @@ void scale_vector(D64 d64, const std::uint16_t* counts, int centre, double gain,
   hn::StoreU(hn::DemoteTo(d8, hn::DemoteTo(d32, whole + up)), d8, levels);
 }
 
-void scale_row(const std::uint16_t* counts, int width, int centre, double gain,
+void scale_row(const std::uint16_t* counts, int width, const Scaling& scaling,
                std::uint8_t* levels) {
   const hn::ScalableTag<double> d64;
   const auto lanes = static_cast<int>(hn::Lanes(d64));
   int x = 0;
   for (; x + lanes <= width; x += lanes) {
-    scale_vector(d64, counts + x, centre, gain, levels + x);
+    scale_vector(d64, counts + x, scaling, levels + x);
   }
   if (x < width) {
     std::uint16_t last_counts[HWY_MAX_BYTES / sizeof(double)] = {};
     std::uint8_t last_levels[HWY_MAX_BYTES / sizeof(double)];
     std::copy(counts + x, counts + width, last_counts);
-    scale_vector(d64, last_counts, centre, gain, last_levels);
+    scale_vector(d64, last_counts, scaling, last_levels);
     std::copy_n(last_levels, width - x, levels + x);
   }
 }
@@ -57,9 +58,9 @@ namespace thermedge::detail {
 
 HWY_EXPORT(scale_row);
 
-void scale_row(const std::uint16_t* counts, int width, int centre, double gain,
+void scale_row(const std::uint16_t* counts, int width, const Scaling& scaling,
                std::uint8_t* levels) {
-  HWY_DYNAMIC_DISPATCH(scale_row)(counts, width, centre, gain, levels);
+  HWY_DYNAMIC_DISPATCH(scale_row)(counts, width, scaling, levels);
 }
 
 }  // namespace thermedge::detail

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "support/program.hpp"
 #include "thermedge/io/source.hpp"
@@ -174,6 +175,31 @@ TEST_F(Program, CompareWritesASheetAndSingleMaps) {
   }
 }
 
+TEST_F(Program, TheStableViewSaysWhatItDid) {
+  std::ofstream(directory_ / "bad.png") << "no picture";
+  const auto result =
+      run("scale 'sim:desk?width=96&height=72&frames=3' bad.png "
+          "'sim:desk?width=96&height=72' --stable -o out");
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(count_lines(result.err), 1U) << result.err;
+  const std::string lines = file_text(directory_ / "out" / "scale.jsonl");
+  ASSERT_EQ(count_lines(lines), 4U) << lines;
+  std::istringstream text(lines);
+  int index = 0;
+  double offset = 0;
+  for (std::string line; std::getline(text, line); ++index) {
+    const auto entry = nlohmann::json::parse(line);
+    EXPECT_EQ(entry["index"], index);
+    EXPECT_EQ(entry["gain"], 0.2);
+    EXPECT_TRUE(index == 0 ? entry["event"] == "start" : entry["event"].is_null());
+    EXPECT_LT(entry["clipped_low_share"], 0.02);
+    EXPECT_TRUE(index == 0 || entry["offset"] == offset);
+    offset = entry["offset"];
+  }
+  EXPECT_TRUE(fs::exists(directory_ / "out" / "desk_0002.png"));
+  EXPECT_TRUE(fs::exists(directory_ / "out" / "desk.png"));
+}
+
 TEST_F(Program, BenchTimesEveryStage) {
   const auto result = run("bench 'sim:desk?width=96&height=72&frames=3' " + std::string(kQuick) +
                           "--threads 1 --seconds 0 --json");
@@ -244,6 +270,9 @@ TEST_F(Program, BadUsageIsOneLineAndExitsWith2) {
            BadUsage{"stages " + scene, "-o"},
            BadUsage{"stages -o x.png", "INPUT"},
            BadUsage{"compare " + scene, "-o"},
+           BadUsage{"scale " + scene + " -o x.png --slew 2", "--stable"},
+           BadUsage{"scale " + scene + " -o x.png --gain 0", "gain"},
+           BadUsage{"scale " + scene + " -o x.png --stable --dead-band nan", "dead_band_levels = nan"},
            BadUsage{"bench " + scene + " -o x.json", "-o"},
            BadUsage{"bench " + scene + " --seconds -1", "--seconds"},
            BadUsage{"compare " + scene + " -o x.png --write magic", "--write magic"},
