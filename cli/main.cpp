@@ -25,6 +25,7 @@ int run(int argc, char** argv) {
   add_stages(program, exit_code);
   add_compare(program, exit_code);
   add_bench(program, exit_code);
+  add_probe(program, exit_code);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

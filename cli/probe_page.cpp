@@ -1,0 +1,223 @@
+#include "probe_page.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "thermedge/io/probe_file.hpp"
+#include "thermedge/options.hpp"
+
+namespace thermedge::cli {
+namespace {
+
+// A word for a value: the first whose limit it does not exceed.
+struct Grade {
+  double limit;
+  std::string_view word;
+};
+
+template <std::size_t N>
+std::string_view grade(const Grade (&grades)[N], double value) {
+  for (const Grade& entry : grades) {
+    if (value <= entry.limit) {
+      return entry.word;
+    }
+  }
+  return grades[N - 1].word;
+}
+
+constexpr double kAnything = 1e300;
+
+// Of a pixel, degC. Makers of uncooled cameras state 0.03 to 0.06 (NETD).
+constexpr Grade kSigmaGrades[] = {{0.03, "very good for an uncooled camera"},
+                                  {0.07, "usual for an uncooled camera"},
+                                  {0.12, "noisy: a denoiser is worth its time"},
+                                  {kAnything, "very noisy: a denoiser is needed"}};
+constexpr Grade kSnrGrades[] = {{15, "poor: only strong edges can be found"},
+                                {60, "low, as of small cheap cameras"},
+                                {200, "usual"},
+                                {kAnything, "good: hot and cold things in view"}};
+// Of the sigma of the pixels.
+constexpr Grade kStripeGrades[] = {{0.125, "none to be seen"},
+                                   {0.25, "weak, harmless"},
+                                   {0.4, "clear: they cost faint edges"},
+                                   {kAnything, "strong: correct them before anything else"}};
+
+class Page {
+ public:
+  explicit Page(const RecordingReport& report) : report_(report) {}
+
+  std::string text(const std::string& name) {
+    text_ = fmt::format("{}: {} frame{} of {}x{} pixels\n", name, report_.frames,
+                        report_.frames == 1 ? "" : "s", report_.width, report_.height);
+    range();
+    noise();
+    stripes();
+    dead_pixels();
+    clipping();
+    sequence();
+    suggestions();
+    return std::move(text_);
+  }
+
+ private:
+  void heading(std::string_view title) { text_ += fmt::format("\n{}\n", title); }
+  void row(std::string_view label, const std::string& value, std::string_view meaning) {
+    text_ += fmt::format("  {:<12} {:<27} {}\n", label, value, meaning);
+  }
+  void more(std::string_view meaning) { row("", "", meaning); }
+
+  // 8-bit pictures have levels, whose worth nobody knows.
+  [[nodiscard]] bool has_degrees() const { return report_.container_bits == 16; }
+  [[nodiscard]] std::string amount(double counts, int digits) const {
+    if (!has_degrees()) {
+      return fmt::format("{:.{}f} levels", counts, digits);
+    }
+    return fmt::format("{:.{}f} counts = {:.{}f} degC", counts, digits,
+                       counts * report_.degc_per_count, digits + 2);
+  }
+  static std::string percent(double share) { return fmt::format("{:.1f} %", 100 * share); }
+
+  void range();
+  void noise();
+  void fixed_pattern();
+  void stripes();
+  void dead_pixels();
+  void clipping();
+  void sequence();
+  void suggestions();
+
+  const RecordingReport& report_;
+  std::string text_;
+};
+
+void Page::range() {
+  heading("Range");
+  row("bits", fmt::format("{} of {} used", report_.used_bits, report_.container_bits),
+      has_degrees() ? "raw counts, as they should be"
+                    : "already scaled by somebody: the raw 16 bits would be better");
+  if (report_.unused_low_bits > 0) {
+    more(fmt::format("all counts are multiples of {}: shifted by {} bits, which is harmless",
+                     1 << report_.unused_low_bits, report_.unused_low_bits));
+  }
+  row("coldest-hottest", "",
+      fmt::format("{} to {} counts in all", report_.min_counts, report_.max_counts));
+  row("of a frame", amount(report_.range_counts, 0), "its hottest minus its coldest pixel");
+  row("most of it", amount(report_.robust_range_counts, 0), "from the 1st to the 99th percentile");
+}
+
+void Page::noise() {
+  heading("Noise (standard deviation of a pixel)");
+  const double sigma = report_.sigma_counts;
+  if (sigma == 0) {
+    row("sigma", "none", "constant, drawn or processed pictures, or too small to tell");
+    return;
+  }
+  row("sigma", amount(sigma, 2),
+      has_degrees() ? grade(kSigmaGrades, sigma * report_.degc_per_count)
+                    : "whatever the camera's automatic gain made of it");
+  std::vector<double> tiles = report_.noise_map.sigma_counts;
+  std::sort(tiles.begin(), tiles.end());
+  const double low = tiles[tiles.size() / 10];
+  const double high = tiles[tiles.size() - 1 - tiles.size() / 10];
+  row("in the picture", fmt::format("{:.1f} to {:.1f}", low, high),
+      high < 1.5 * low ? "even" : "uneven: by vignetting, texture, or a badly corrected sensor");
+  if (report_.temporal_sigma_counts) {
+    row("over time", fmt::format("{:.2f}", *report_.temporal_sigma_counts),
+        "new in every frame: denoising or averaging frames helps");
+  }
+  fixed_pattern();
+  if (report_.snr) {
+    row("SNR", fmt::format("{:.0f}", *report_.snr),
+        fmt::format("(most of the range / sigma) {}", grade(kSnrGrades, *report_.snr)));
+  }
+}
+
+void Page::fixed_pattern() {
+  if (!report_.fixed_pattern_sigma_counts) {
+    row("fixed", "unknown", "needs 4 frames between which the scene moves");
+    return;
+  }
+  row("fixed", fmt::format("{:.2f}", *report_.fixed_pattern_sigma_counts),
+      fmt::format("offsets of the pixels: {} of the noise power",
+                  percent(*report_.fixed_pattern_share)));
+  more(fmt::format("a map of them from 8 frames lowers sigma by {}, at best {}",
+                   percent(*report_.offset_map_gain_8_frames),
+                   percent(*report_.offset_map_gain_limit)));
+}
+
+void Page::stripes() {
+  const double sigma = report_.sigma_counts;
+  if (sigma == 0) {
+    return;
+  }
+  row("columns", fmt::format("{:.2f}", report_.column_sigma_counts),
+      fmt::format("upright stripes: {}",
+                  grade(kStripeGrades, report_.column_sigma_counts / sigma)));
+  row("rows", fmt::format("{:.2f}", report_.row_sigma_counts),
+      fmt::format("level stripes: {}", grade(kStripeGrades, report_.row_sigma_counts / sigma)));
+}
+
+void Page::dead_pixels() {
+  heading("Dead pixels");
+  if (!report_.dead_pixels) {
+    row("flagged", fmt::format("{:.1f} a frame", report_.passing_dead_pixels),
+        "replaced by detect; lasting or not takes 3 frames to tell");
+    return;
+  }
+  row("lasting", fmt::format("{}", *report_.dead_pixels),
+      *report_.dead_pixels == 0 ? "none: good" : "replaced by detect on every frame");
+  row("passing", fmt::format("{:.1f} a frame", report_.passing_dead_pixels),
+      "flagged now and then: flicker, or points of the scene");
+}
+
+void Page::clipping() {
+  if (!has_degrees()) {
+    return;
+  }
+  heading("Algorithm 1 (8 bits around the median)");
+  for (const double gain : {0.5, 0.2}) {
+    const double share = report_.clipped_share(gain);
+    row(fmt::format("gain {}", gain), percent(share) + " clipped",
+        share > 0.02 ? "too hot or too cold to show: edges there are lost" : "good");
+  }
+}
+
+void Page::sequence() {
+  if (report_.frames < 2) {
+    return;
+  }
+  heading("Sequence");
+  row("repeated", fmt::format("{} frames", report_.repeated_frames),
+      report_.repeated_frames == 0 ? "none: good" : "same bits as the frame before");
+  if (report_.longest_freeze > 1) {
+    row("longest freeze", fmt::format("{} frames", report_.longest_freeze),
+        "a shutter (FFC) or a stalled stream: nothing new to see meanwhile");
+  }
+  if (report_.offset_jumps > 0) {
+    row("shutter jumps", fmt::format("{}", report_.offset_jumps),
+        fmt::format("all counts shift after a freeze, by up to {:.0f}",
+                    report_.largest_jump_counts));
+  }
+  row("movement", fmt::format("in {} of {}", report_.scene_moved, report_.frames - 1),
+      report_.scene_moved == 0 ? "camera at rest" : "frames the scene moved over the sensor");
+  row("flicker", amount(report_.flicker_counts.value_or(0), 2),
+      "change of the median from frame to frame");
+  if (has_degrees()) {
+    more(fmt::format("= {:.2f} grey levels of Algorithm 1 at gain 0.5",
+                     0.5 * report_.flicker_counts.value_or(0)));
+  }
+}
+
+void Page::suggestions() {
+  heading("Suggested options (for --set, or with --toml FILE for detect --config FILE)");
+  text_ += io::suggested_toml(report_);
+}
+
+}  // namespace
+
+std::string probe_page(const RecordingReport& report, const std::string& name) {
+  return Page(report).text(name);
+}
+
+}  // namespace thermedge::cli

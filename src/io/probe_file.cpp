@@ -1,0 +1,136 @@
+#include "thermedge/io/probe_file.hpp"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace thermedge::io {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// To six digits behind the point, so that the text does not change with the last bits.
+Json rounded(double value) { return std::round(value * 1e6) / 1e6; }
+
+Json rounded(const std::optional<double>& value) { return value ? rounded(*value) : Json(nullptr); }
+
+Json rounded(const std::vector<double>& values) {
+  Json list = Json::array();
+  for (const double value : values) {
+    list.push_back(rounded(value));
+  }
+  return list;
+}
+
+template <class T>
+Json or_null(const std::optional<T>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
+
+Json range_json(const RecordingReport& report) {
+  const double degc = report.degc_per_count;
+  return {{"min_counts", report.min_counts},
+          {"max_counts", report.max_counts},
+          {"mean_counts", rounded(report.range_counts)},
+          {"mean_degc", rounded(report.range_counts * degc)},
+          {"p1_to_p99_counts", rounded(report.robust_range_counts)},
+          {"p1_to_p99_degc", rounded(report.robust_range_counts * degc)},
+          {"degc_per_level", rounded(degc_per_level(report.range_counts * degc))}};
+}
+
+Json noise_json(const RecordingReport& report) {
+  return {{"sigma_counts", rounded(report.sigma_counts)},
+          {"sigma_degc", rounded(report.sigma_counts * report.degc_per_count)},
+          {"frame_sigma_counts", rounded(report.frame_sigma_counts)},
+          {"temporal_sigma_counts", rounded(report.temporal_sigma_counts)},
+          {"fixed_pattern_sigma_counts", rounded(report.fixed_pattern_sigma_counts)},
+          {"fixed_pattern_share", rounded(report.fixed_pattern_share)},
+          {"offset_map_gain_8_frames", rounded(report.offset_map_gain_8_frames)},
+          {"offset_map_gain_limit", rounded(report.offset_map_gain_limit)},
+          {"column_sigma_counts", rounded(report.column_sigma_counts)},
+          {"row_sigma_counts", rounded(report.row_sigma_counts)},
+          {"snr", rounded(report.snr)}};
+}
+
+Json sequence_json(const RecordingReport& report) {
+  return {{"repeated_frames", report.repeated_frames},
+          {"longest_freeze_frames", report.longest_freeze},
+          {"offset_jumps", report.offset_jumps},
+          {"largest_jump_counts", rounded(report.largest_jump_counts)},
+          {"moved_frames", report.scene_moved},
+          {"flicker_counts", rounded(report.flicker_counts)}};
+}
+
+Json clipping_json(const RecordingReport& report) {
+  Json list = Json::array();
+  for (const GainClipping& entry : report.clipping) {
+    list.push_back({{"gain", entry.gain}, {"clipped_share", rounded(entry.share)}});
+  }
+  return list;
+}
+
+Json series_json(const RecordingReport& report) {
+  Json frames = Json::array(), medians = Json::array(), sigmas = Json::array();
+  for (const ProbeSample& sample : report.series) {
+    frames.push_back(sample.frame);
+    medians.push_back(sample.median_counts);
+    sigmas.push_back(rounded(sample.sigma_counts));
+  }
+  return {{"frame", std::move(frames)},
+          {"median_counts", std::move(medians)},
+          {"sigma_counts", std::move(sigmas)}};
+}
+
+Json suggested_json(const RecordingReport& report) {
+  Json list = Json::array();
+  for (const SuggestedOption& option : report.suggested) {
+    list.push_back({{"option", option.name}, {"value", option.value}, {"reason", option.reason}});
+  }
+  return list;
+}
+
+}  // namespace
+
+std::string probe_to_json(const RecordingReport& report, const std::vector<std::string>& inputs) {
+  const Json document = {{"inputs", inputs},
+                         {"frames", report.frames},
+                         {"width", report.width},
+                         {"height", report.height},
+                         {"container_bits", report.container_bits},
+                         {"used_bits", report.used_bits},
+                         {"unused_low_bits", report.unused_low_bits},
+                         {"degc_per_count", report.degc_per_count},
+                         {"range", range_json(report)},
+                         {"noise", noise_json(report)},
+                         {"dead_pixels", or_null(report.dead_pixels)},
+                         {"passing_dead_pixels_per_frame", rounded(report.passing_dead_pixels)},
+                         {"clipping", clipping_json(report)},
+                         {"sequence", sequence_json(report)},
+                         {"suggested", suggested_json(report)},
+                         {"histogram",
+                          {{"edges_counts", report.histogram.edges_counts},
+                           {"pixels", report.histogram.pixels},
+                           {"below", report.histogram.below},
+                           {"above", report.histogram.above}}},
+                         {"noise_map",
+                          {{"columns", report.noise_map.columns},
+                           {"rows", report.noise_map.rows},
+                           {"sigma_counts", rounded(report.noise_map.sigma_counts)}}},
+                         {"column_profile_counts", rounded(report.column_profile_counts)},
+                         {"row_profile_counts", rounded(report.row_profile_counts)},
+                         {"series", series_json(report)}};
+  // A name that is not UTF-8 is shown with replacement characters rather than refused.
+  return document.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string suggested_toml(const RecordingReport& report) {
+  if (report.suggested.empty()) {
+    return "# The detector's defaults suit this recording.\n";
+  }
+  std::string text;
+  for (const SuggestedOption& option : report.suggested) {
+    text += "# " + option.reason + "\n" + option.name + " = " + option.value + "\n";
+  }
+  return text;
+}
+
+}  // namespace thermedge::io
