@@ -33,15 +33,15 @@ constexpr Grade kSigmaGrades[] = {{0.03, "very good for an uncooled camera"},
                                   {0.07, "usual for an uncooled camera"},
                                   {0.12, "noisy: a denoiser is worth its time"},
                                   {kAnything, "very noisy: a denoiser is needed"}};
-constexpr Grade kSnrGrades[] = {{15, "poor: only strong edges can be found"},
+constexpr Grade kSnrGrades[] = {{15, "poor: strong edges only"},
                                 {60, "low, as of small cheap cameras"},
                                 {200, "usual"},
-                                {kAnything, "good: hot and cold things in view"}};
+                                {kAnything, "good"}};
 // Of the sigma of the pixels.
 constexpr Grade kStripeGrades[] = {{0.125, "none to be seen"},
                                    {0.25, "weak, harmless"},
                                    {0.4, "clear: they cost faint edges"},
-                                   {kAnything, "strong: correct them before anything else"}};
+                                   {kAnything, "strong: correct them first"}};
 
 class Page {
  public:
@@ -63,20 +63,31 @@ class Page {
  private:
   void heading(std::string_view title) { text_ += fmt::format("\n{}\n", title); }
   void row(std::string_view label, const std::string& value, std::string_view meaning) {
-    text_ += fmt::format("  {:<12} {:<27} {}\n", label, value, meaning);
+    text_ += fmt::format("  {:<15} {:<26} {}\n", label, value, meaning);
   }
   void more(std::string_view meaning) { row("", "", meaning); }
 
   // 8-bit pictures have levels, whose worth nobody knows.
   [[nodiscard]] bool has_degrees() const { return report_.container_bits == 16; }
+  [[nodiscard]] std::string_view unit() const { return has_degrees() ? "counts" : "levels"; }
   [[nodiscard]] std::string amount(double counts, int digits) const {
     if (!has_degrees()) {
-      return fmt::format("{:.{}f} levels", counts, digits);
+      return fmt::format("{:.{}f} {}", counts, digits, unit());
     }
     return fmt::format("{:.{}f} counts = {:.{}f} degC", counts, digits,
-                       counts * report_.degc_per_count, digits + 2);
+                       counts * report_.degc_per_count, std::min(digits + 2, 3));
   }
   static std::string percent(double share) { return fmt::format("{:.1f} %", 100 * share); }
+
+  // What to do about it, where there is something.
+  [[nodiscard]] std::string lost_to_clipping() const {
+    for (const SuggestedOption& option : report_.suggested) {
+      if (option.name == "scale.gain") {
+        return fmt::format("edges there are lost: use --set {}={}", option.name, option.value);
+      }
+    }
+    return "edges there are lost";
+  }
 
   void range();
   void noise();
@@ -95,14 +106,14 @@ void Page::range() {
   heading("Range");
   row("bits", fmt::format("{} of {} used", report_.used_bits, report_.container_bits),
       has_degrees() ? "raw counts, as they should be"
-                    : "already scaled by somebody: the raw 16 bits would be better");
+                    : "scaled already: the camera's raw 16 bits are better");
   if (report_.unused_low_bits > 0) {
     more(fmt::format("all counts are multiples of {}: shifted by {} bits, which is harmless",
                      1 << report_.unused_low_bits, report_.unused_low_bits));
   }
-  row("coldest-hottest", "",
-      fmt::format("{} to {} counts in all", report_.min_counts, report_.max_counts));
-  row("of a frame", amount(report_.range_counts, 0), "its hottest minus its coldest pixel");
+  row("of all frames", fmt::format("{} to {} {}", report_.min_counts, report_.max_counts, unit()),
+      "the coldest and the hottest pixel, dead ones included");
+  row("of a frame", amount(report_.range_counts, 0), "its hottest minus its coldest pixel (eq. 3)");
   row("most of it", amount(report_.robust_range_counts, 0), "from the 1st to the 99th percentile");
 }
 
@@ -121,15 +132,15 @@ void Page::noise() {
   const double low = tiles[tiles.size() / 10];
   const double high = tiles[tiles.size() - 1 - tiles.size() / 10];
   row("in the picture", fmt::format("{:.1f} to {:.1f}", low, high),
-      high < 1.5 * low ? "even" : "uneven: by vignetting, texture, or a badly corrected sensor");
+      high < 1.5 * low ? "even" : "uneven: vignetting, texture, or a badly corrected sensor");
   if (report_.temporal_sigma_counts) {
     row("over time", fmt::format("{:.2f}", *report_.temporal_sigma_counts),
-        "new in every frame: denoising or averaging frames helps");
+        "new in every frame: denoising and averaging help");
   }
   fixed_pattern();
   if (report_.snr) {
     row("SNR", fmt::format("{:.0f}", *report_.snr),
-        fmt::format("(most of the range / sigma) {}", grade(kSnrGrades, *report_.snr)));
+        fmt::format("most of the range / sigma; {}", grade(kSnrGrades, *report_.snr)));
   }
 }
 
@@ -139,9 +150,9 @@ void Page::fixed_pattern() {
     return;
   }
   row("fixed", fmt::format("{:.2f}", *report_.fixed_pattern_sigma_counts),
-      fmt::format("offsets of the pixels: {} of the noise power",
+      fmt::format("offsets of pixels: {} of a typical one's variance",
                   percent(*report_.fixed_pattern_share)));
-  more(fmt::format("a map of them from 8 frames lowers sigma by {}, at best {}",
+  more(fmt::format("a map from 8 frames lowers sigma by {}, at best {}",
                    percent(*report_.offset_map_gain_8_frames),
                    percent(*report_.offset_map_gain_limit)));
 }
@@ -162,7 +173,7 @@ void Page::dead_pixels() {
   heading("Dead pixels");
   if (!report_.dead_pixels) {
     row("flagged", fmt::format("{:.1f} a frame", report_.passing_dead_pixels),
-        "replaced by detect; lasting or not takes 3 frames to tell");
+        "replaced by detect; 3 frames would tell if they last");
     return;
   }
   row("lasting", fmt::format("{}", *report_.dead_pixels),
@@ -179,7 +190,7 @@ void Page::clipping() {
   for (const double gain : {0.5, 0.2}) {
     const double share = report_.clipped_share(gain);
     row(fmt::format("gain {}", gain), percent(share) + " clipped",
-        share > 0.02 ? "too hot or too cold to show: edges there are lost" : "good");
+        share > 0.02 ? lost_to_clipping() : "good");
   }
 }
 
@@ -199,8 +210,8 @@ void Page::sequence() {
         fmt::format("all counts shift after a freeze, by up to {:.0f}",
                     report_.largest_jump_counts));
   }
-  row("movement", fmt::format("in {} of {}", report_.scene_moved, report_.frames - 1),
-      report_.scene_moved == 0 ? "camera at rest" : "frames the scene moved over the sensor");
+  row("movement", fmt::format("{} in {} frames", report_.scene_moved, report_.frames),
+      report_.scene_moved == 0 ? "camera at rest" : "times the scene had moved enough to notice");
   row("flicker", amount(report_.flicker_counts.value_or(0), 2),
       "change of the median from frame to frame");
   if (has_degrees()) {

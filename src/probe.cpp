@@ -1,6 +1,7 @@
 #include "thermedge/probe.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <new>
@@ -49,6 +50,7 @@ double median_change(ImageView<const std::uint16_t> a, ImageView<const std::uint
 // Keeps every n-th sample, n doubled whenever there are too many.
 class Series {
  public:
+  Series() { samples_.reserve(kMostSamples); }
   void add(const ProbeSample& sample) {
     if (sample.frame % step_ != 0) {
       return;
@@ -56,9 +58,6 @@ class Series {
     if (samples_.size() == kMostSamples) {
       step_ *= 2;
       std::erase_if(samples_, [&](const ProbeSample& kept) { return kept.frame % step_ != 0; });
-    }
-    if (samples_.capacity() == 0) {
-      samples_.reserve(kMostSamples);
     }
     if (sample.frame % step_ == 0) {
       samples_.push_back(sample);
@@ -102,6 +101,7 @@ struct RecordingProbe::Impl {
   std::int64_t new_frames = 0;  // frames that repeat none
 
   Status check(ImageView<const std::uint16_t> frame, int bits);
+  void reserve(ImageView<const std::uint16_t> frame);
   void add(ImageView<const std::uint16_t> frame);
   void add_counts(ImageView<const std::uint16_t> frame);
   void add_new_frame(ImageView<const std::uint16_t> frame, double sigma_counts);
@@ -139,7 +139,20 @@ Status RecordingProbe::Impl::check(ImageView<const std::uint16_t> frame, int bit
   return {};
 }
 
+// All memory that frames of this size can need.
+void RecordingProbe::Impl::reserve(ImageView<const std::uint16_t> frame) {
+  previous.resize(frame.width(), frame.height());
+  working.resize(frame.width(), frame.height());
+  dead_frames.resize(frame.width(), frame.height());
+  fill_pixels(dead_frames.view(), 0U);
+  dead.reserve(frame.size());
+  changes.reserve(frame.size());
+}
+
 void RecordingProbe::Impl::add(ImageView<const std::uint16_t> frame) {
+  if (report.frames == 0) {
+    reserve(frame);
+  }
   const bool is_repeat = report.frames > 0 && same_counts(frame, previous);
   add_counts(frame);
   const NoiseEstimate estimate = estimator.measure(frame);
@@ -194,7 +207,6 @@ void RecordingProbe::Impl::add_new_frame(ImageView<const std::uint16_t> frame,
   }
   stripes.add(frame);
   add_dead_pixels(frame, sigma_counts);
-  previous.resize(frame.width(), frame.height());
   copy_pixels(frame, previous.view());
 }
 
@@ -211,11 +223,6 @@ void RecordingProbe::Impl::end_freeze(ImageView<const std::uint16_t> frame, doub
 
 void RecordingProbe::Impl::add_dead_pixels(ImageView<const std::uint16_t> frame,
                                            double sigma_counts) {
-  if (dead_frames.empty()) {
-    dead_frames.resize(frame.width(), frame.height());
-    fill_pixels(dead_frames.view(), 0U);
-  }
-  working.resize(frame.width(), frame.height());
   copy_pixels(frame, working.view());
   correct_dead_pixels(working, sigma_counts, options.nuc, dead);
   for (const DeadPixel& pixel : dead) {

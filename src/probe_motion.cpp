@@ -8,6 +8,7 @@ namespace {
 
 constexpr int kBlock = 8;              // px
 constexpr float kStructureSigmas = 6;  // step over two blocks
+constexpr float kChangeSigmas = 0.6F;  // of a block: more than 3 times its noise
 constexpr int kLeastStructured = 8;    // blocks
 constexpr int kMovedPart = 3;          // a third of them
 
@@ -19,6 +20,7 @@ bool MotionGate::moved(ImageView<const std::uint16_t> frame, double sigma_counts
     started_ = true;
     last_.resize(blocks_.width(), blocks_.height());
     last_.swap(blocks_);
+    changes_.reserve(last_.size());
     return true;
   }
   const auto sigma = static_cast<float>(std::max(sigma_counts, 1.0));
@@ -29,7 +31,7 @@ bool MotionGate::moved(ImageView<const std::uint16_t> frame, double sigma_counts
     for (int x = 0; x < blocks_.width(); ++x) {
       if (has_structure(x, y, kStructureSigmas * sigma)) {
         ++structured;
-        changed += std::abs(blocks_(x, y) - last_(x, y) - drift) > sigma ? 1 : 0;
+        changed += std::abs(blocks_(x, y) - last_(x, y) - drift) > kChangeSigmas * sigma ? 1 : 0;
       }
     }
   }

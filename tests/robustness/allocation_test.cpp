@@ -9,6 +9,7 @@
 #include "thermedge/classical.hpp"
 #include "thermedge/detector.hpp"
 #include "thermedge/fields.hpp"
+#include "thermedge/probe.hpp"
 #include "thermedge/sim/scene.hpp"
 
 namespace {
@@ -115,6 +116,24 @@ TEST(Allocation, ClassicalDetectorsAllocateOnTheFirstFrameOnly) {
     }
     EXPECT_EQ(spent, 0) << known.name;
   }
+}
+
+TEST(Allocation, OfAProbeIsNoneAfterTheSecondFrame) {
+  auto frames = growing_frames();
+  frames.push_back(frames.back().clone());  // a freeze and what follows it
+  frames.push_back(frames.back().clone());
+  frames.push_back(test::noise_image<std::uint16_t>(160, 120, 9000, 200, 4));
+  RecordingProbe probe;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const long before = allocations;
+    const Status status = probe.add(frames[i]);
+    const long spent = allocations - before;
+    ASSERT_TRUE(status);
+    if (i >= 2) {
+      EXPECT_EQ(spent, 0) << "frame " << i;
+    }
+  }
+  EXPECT_EQ(probe.report().offset_jumps, 1);
 }
 
 TEST(Allocation, TheCounterCounts) {
