@@ -132,7 +132,7 @@ void Page::noise() {
   const double low = tiles[tiles.size() / 10];
   const double high = tiles[tiles.size() - 1 - tiles.size() / 10];
   row("in the picture", fmt::format("{:.1f} to {:.1f}", low, high),
-      high < 1.5 * low ? "even" : "uneven: vignetting, texture, or a badly corrected sensor");
+      high < 1.5 * low ? "even" : "uneven: vignetting, texture or a bad flat-field");
   if (report_.temporal_sigma_counts) {
     row("over time", fmt::format("{:.2f}", *report_.temporal_sigma_counts),
         "new in every frame: denoising and averaging help");
@@ -152,7 +152,7 @@ void Page::fixed_pattern() {
   row("fixed", fmt::format("{:.2f}", *report_.fixed_pattern_sigma_counts),
       fmt::format("offsets of pixels: {} of a typical one's variance",
                   percent(*report_.fixed_pattern_share)));
-  more(fmt::format("a map from 8 frames lowers sigma by {}, at best {}",
+  more(fmt::format("a map of 8 frames lowers sigma by {}, at best {}",
                    percent(*report_.offset_map_gain_8_frames),
                    percent(*report_.offset_map_gain_limit)));
 }
