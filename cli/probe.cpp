@@ -8,8 +8,10 @@
 #include "commands.hpp"
 #include "common.hpp"
 #include "probe_page.hpp"
+#include "thermedge/figures/probe_sheet.hpp"
 #include "thermedge/io/probe_file.hpp"
 #include "thermedge/io/write.hpp"
+#include "thermedge/radiation.hpp"
 
 namespace thermedge::cli {
 namespace {
@@ -17,43 +19,78 @@ namespace {
 struct ProbeCommand {
   CommonOptions common;
   ProbeOptions probe;
+  std::string camera;
   std::string toml;
   bool json = false;
 
-  int run() const {
-    Report report = common.report();
-    const auto source = common.prepare();
-    if (!source) {
-      report.error(source.error().message);
-      return kBadUsage;
-    }
-    RecordingProbe recording(probe);
-    const int exit_code = for_each_frame(
-        common, *source, report,
-        [&](const io::Frame& frame) -> Status { return recording.add(frame.counts, frame.bits); });
-    const RecordingReport result = recording.report();
-    if (result.frames == 0) {
-      if (exit_code == kGood) {
-        report.error(name() + ": holds no frames");
-      }
-      return kBadInput;
-    }
-    if (!toml.empty()) {
-      if (const Status status = io::write_file(toml, io::suggested_toml(result)); !status) {
-        report.error(status.error().message);
-        return kBadInput;
-      }
-    }
-    fmt::print("{}", json ? io::probe_to_json(result, common.inputs) : probe_page(result, name()));
-    return exit_code;
-  }
+  [[nodiscard]] int run() const;
 
-  [[nodiscard]] std::string name() const {
-    return common.inputs.size() == 1
-               ? common.inputs.front()
-               : fmt::format("{} and {} more", common.inputs.front(), common.inputs.size() - 1);
-  }
+ private:
+  [[nodiscard]] Status write_files(const RecordingReport& result,
+                                   ImageView<const std::uint16_t> first_frame) const;
+  [[nodiscard]] std::string name() const;
 };
+
+int ProbeCommand::run() const {
+  Report report = common.report();
+  const auto source = common.prepare();
+  if (!source) {
+    return report.fail(source.error());
+  }
+  ProbeOptions options = probe;
+  if (!camera.empty()) {
+    const auto model = parse_counts_model(camera);
+    if (!model) {
+      return report.fail({model.error().code, "--camera: " + model.error().message});
+    }
+    options.camera = *model;
+  }
+  if (!common.output.empty() && !figures::is_figure_path(common.output)) {
+    return report.fail(
+        {ErrorCode::kInvalidArgument,
+         fmt::format("-o {}: the name should end in .png, .svg or .pdf", common.output)});
+  }
+  RecordingProbe recording(options);
+  Image<std::uint16_t> first_frame;
+  const int exit_code =
+      for_each_frame(common, *source, report, [&](const io::Frame& frame) -> Status {
+        if (first_frame.empty()) {
+          first_frame = frame.counts.clone();
+        }
+        return recording.add(frame.counts, frame.bits);
+      });
+  const RecordingReport result = recording.report();
+  if (result.frames == 0) {
+    if (exit_code == kGood) {
+      report.error(name() + ": holds no frames");
+    }
+    return kBadInput;
+  }
+  if (const Status status = write_files(result, first_frame.view()); !status) {
+    return report.fail(status.error());
+  }
+  fmt::print("{}", json ? io::probe_to_json(result, common.inputs) : probe_page(result, name()));
+  return exit_code;
+}
+
+Status ProbeCommand::write_files(const RecordingReport& result,
+                                 ImageView<const std::uint16_t> first_frame) const {
+  Status status;
+  if (!toml.empty()) {
+    status = io::write_file(toml, io::suggested_toml(result));
+  }
+  if (!common.output.empty()) {
+    status = status.and_then(
+        [&] { return figures::draw_probe(result, first_frame, name()).write(common.output); });
+  }
+  return status;
+}
+
+std::string ProbeCommand::name() const {
+  return common.inputs.size() == 1
+             ? common.inputs.front()
+             : fmt::format("{} and {} more", common.inputs.front(), common.inputs.size() - 1);
+}
 
 }  // namespace
 
@@ -62,10 +99,15 @@ void add_probe(CLI::App& program, int& exit_code) {
       "probe", "what a recording is like: range, noise, stripes, dead pixels, freezes, options");
   auto command = std::make_shared<ProbeCommand>();
   command->common.add_to(app);
-  app.remove_option(app.get_option("-o"));
-  app.add_option("--degc-per-count", command->probe.degc_per_count, "worth of a count, degC")
-      ->check(CLI::Range(1e-9, 1000.0))
-      ->capture_default_str();
+  app.get_option("-o")->description("also as a picture: .png, .svg or .pdf");
+  CLI::Option* worth =
+      app.add_option("--degc-per-count", command->probe.degc_per_count, "worth of a count, degC")
+          ->check(CLI::Range(1e-9, 1000.0))
+          ->capture_default_str();
+  app.add_option("--camera", command->camera,
+                 "how counts become degC: linear, optris, lepton, lepton-0.1, "
+                 "linear:DEGC_PER_COUNT,DEGC_AT_ZERO or planck:R1,B,F,O,R2")
+      ->excludes(worth);
   app.add_flag("--json", command->json, "everything as one JSON object");
   app.add_option("--toml", command->toml, "file for the suggested options, for detect --config");
   app.callback([command, &exit_code] { exit_code = command->run(); });

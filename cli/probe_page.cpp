@@ -113,6 +113,10 @@ void Page::range() {
   }
   row("of all frames", fmt::format("{} to {} {}", report_.min_counts, report_.max_counts, unit()),
       "the coldest and the hottest pixel, dead ones included");
+  if (report_.min_degc && report_.max_degc) {
+    row("", fmt::format("{:.1f} to {:.1f} degC", *report_.min_degc, *report_.max_degc),
+        "as temperatures of black bodies, by the camera's response");
+  }
   row("of a frame", amount(report_.range_counts, 0), "its hottest minus its coldest pixel (eq. 3)");
   row("most of it", amount(report_.robust_range_counts, 0), "from the 1st to the 99th percentile");
 }

@@ -237,6 +237,12 @@ RecordingReport RecordingProbe::Impl::finish() const {
     return result;
   }
   result.degc_per_count = options.degc_per_count;
+  if (options.camera && result.frames > 0) {
+    result.degc_per_count =
+        options.camera->degc_per_count((result.min_counts + result.max_counts) / 2.0);
+    result.min_degc = options.camera->to_degc(result.min_counts);
+    result.max_degc = options.camera->to_degc(result.max_counts);
+  }
   result.used_bits = std::bit_width(bits_set);
   result.unused_low_bits = bits_set == 0 ? 0 : std::countr_zero(bits_set);
   result.range_counts = range.value();

@@ -10,6 +10,7 @@
 
 #include "thermedge/image.hpp"
 #include "thermedge/nuc.hpp"
+#include "thermedge/radiation.hpp"
 #include "thermedge/radiometry.hpp"
 #include "thermedge/result.hpp"
 
@@ -17,6 +18,7 @@ namespace thermedge {
 
 struct ProbeOptions {
   double degc_per_count = kDegcPerCount;  // worth of a count, degC, > 0 (paper section 2.3)
+  std::optional<CountsModel> camera;      // instead of it, where known: tells temperatures too
   NucOptions nuc;                         // the rule for dead pixels
 };
 
@@ -79,13 +81,14 @@ struct RecordingReport {
   int container_bits = 0;     // 8 or 16
   int used_bits = 0;          // up to the highest bit that is ever set
   int unused_low_bits = 0;    // 2: all counts are multiples of 4
-  double degc_per_count = 0;
+  double degc_per_count = 0;  // of a camera model: in the middle of the range
 
   // Range, counts.
-  int min_counts = 0, max_counts = 0;  // of all frames
-  double range_counts = 0;             // max - min of a frame (paper eq. 3), mean over the frames
-  double robust_range_counts = 0;      // 99th - 1st percentile of a frame, mean over the frames
-  std::optional<double> snr;           // robust_range_counts / sigma_counts
+  int min_counts = 0, max_counts = 0;        // of all frames
+  std::optional<double> min_degc, max_degc;  // the same as temperatures, of a camera model
+  double range_counts = 0;         // max - min of a frame (paper eq. 3), mean over the frames
+  double robust_range_counts = 0;  // 99th - 1st percentile of a frame, mean over the frames
+  std::optional<double> snr;       // robust_range_counts / sigma_counts
   CountHistogram histogram;
 
   // Noise, counts.

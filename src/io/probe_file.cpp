@@ -30,6 +30,8 @@ Json range_json(const RecordingReport& report) {
   const double degc = report.degc_per_count;
   return {{"min_counts", report.min_counts},
           {"max_counts", report.max_counts},
+          {"min_degc", rounded(report.min_degc)},
+          {"max_degc", rounded(report.max_degc)},
           {"mean_counts", rounded(report.range_counts)},
           {"mean_degc", rounded(report.range_counts * degc)},
           {"p1_to_p99_counts", rounded(report.robust_range_counts)},

@@ -72,6 +72,19 @@ TEST_F(ProbeProgram, WritesOptionsThatDetectTakes) {
   EXPECT_NE(dumped.out.find("min_component_px = 13"), std::string::npos) << dumped.out;
 }
 
+TEST_F(ProbeProgram, DrawsAPictureAndKnowsCameras) {
+  const auto result = run("probe 'sim:desk?width=96&height=72&frames=3' --camera lepton -o x.svg");
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_GT(std::filesystem::file_size(directory_ / "x.svg"), 1000U);
+  // The scene lies near 2700 counts: 27 K at 0.01 K a count.
+  EXPECT_NE(result.out.find("degC        as temperatures"), std::string::npos) << result.out;
+  const auto json = nlohmann::json::parse(
+      run("probe 'sim:desk?width=96&height=72' --camera linear:0.04,-100 --json").out);
+  EXPECT_EQ(json["degc_per_count"], 0.04);
+  EXPECT_NEAR(json["range"]["min_degc"], 0.04 * json["range"]["min_counts"].get<double>() - 100,
+              1e-6);
+}
+
 TEST_F(ProbeProgram, LeavesOutFramesOfAnotherSize) {
   const auto result =
       run("probe 'sim:desk?width=96&height=72' 'sim:desk?width=64&height=48' --json");
@@ -94,6 +107,10 @@ TEST_F(ProbeProgram, SaysWhatIsWrongInOneLine) {
        {Case{"probe missing.png", 1, "missing.png"}, Case{"probe bad.png", 1, "bad.png"},
         Case{"probe empty", 1, "empty"}, Case{"probe sim:nowhere", 1, "nowhere"},
         Case{"probe sim:desk --degc-per-count 0", 2, "--degc-per-count"},
+        Case{"probe sim:desk --camera magic", 2, "--camera: camera magic"},
+        Case{"probe sim:desk --camera lepton --degc-per-count 1", 2, "--camera"},
+        Case{"probe sim:desk -o x.jpg", 2, "-o x.jpg"},
+        Case{"probe sim:desk -o missing/x.png", 1, "missing/x.png"},
         Case{"probe sim:desk --toml missing/x.toml", 1, "missing/x.toml"},
         Case{"probe - --raw-size 8x8 < nothing.raw", 1, "standard input"},
         Case{"probe", 2, "INPUT"}}) {

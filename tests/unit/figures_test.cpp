@@ -7,14 +7,17 @@
 #include <fstream>
 
 #include "canvas.hpp"
+#include "chart.hpp"
 #include "frame_panels.hpp"
 #include "sheet.hpp"
 #include "support/files.hpp"
 #include "support/images.hpp"
 #include "thermedge/fields.hpp"
 #include "thermedge/figures/comparison_sheet.hpp"
+#include "thermedge/figures/probe_sheet.hpp"
 #include "thermedge/figures/stages_sheet.hpp"
 #include "thermedge/io/overlay.hpp"
+#include "thermedge/probe.hpp"
 #include "thermedge/sim/scene.hpp"
 
 namespace thermedge::figures {
@@ -373,6 +376,41 @@ TEST(ComparisonSheet, TakesFramesOfEverySize) {
     EXPECT_TRUE(sheet->draw(test::noise_image<std::uint16_t>(size, 5, 128, 30, 2), 8, "noise"));
   }
   EXPECT_FALSE(sheet->draw(ImageView<const std::uint16_t>(), 16, "nothing"));
+}
+
+TEST(Ticks, AreRoundAndInside) {
+  EXPECT_EQ(ticks({0, 10}, 5), (std::vector<double>{0, 2, 4, 6, 8, 10}));
+  EXPECT_EQ(ticks({-1, 1}, 4), (std::vector<double>{-1, -0.5, 0, 0.5, 1}));
+  EXPECT_EQ(ticks({2434, 3758}, 6), (std::vector<double>{2500, 3000, 3500}));
+  for (const double length : {1e-6, 0.37, 5.0, 123.0, 65535.0, 1e9}) {
+    const auto values = ticks({7, 7 + length}, 6);
+    EXPECT_GE(values.size(), 2U) << length;
+    EXPECT_LE(values.size(), 8U) << length;
+    EXPECT_GE(values.front(), 7 - 1e-9 * length);
+    EXPECT_LE(values.back(), 7 + length * (1 + 1e-9));
+  }
+  EXPECT_GT(widened({3, 3}, 0).length(), 0);
+}
+
+TEST(ProbeSheet, IsDrawnForSequencesSingleFramesAndFlatOnes) {
+  for (const int frames : {1, 5}) {
+    for (const double sigma : {0.0, 8.0}) {
+      for (const int bits : {8, 16}) {
+        RecordingProbe probe;
+        Image<std::uint16_t> first;
+        for (int i = 0; i < frames; ++i) {
+          Image<std::uint16_t> frame =
+              test::noise_image<std::uint16_t>(80, 64, 120, sigma, static_cast<unsigned>(i + 1));
+          ASSERT_TRUE(probe.add(frame, bits));
+          first = std::move(frame);
+        }
+        const Figure sheet = draw_probe(probe.report(), first, "noise");
+        const auto picture = sheet.rasterise();
+        ASSERT_TRUE(picture);
+        EXPECT_GT(dark_pixels(*picture, 0, 0, picture->width(), picture->height()), 1000U);
+      }
+    }
+  }
 }
 
 }  // namespace
