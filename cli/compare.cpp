@@ -15,6 +15,7 @@ namespace {
 
 struct CompareCommand : DetectorCommand {
   std::string format = "png";
+  double panel_width = figures::kPanelWidth;
   std::string classical_denoiser = "none";
   std::optional<std::string> maps;  // --write; empty: all
   ClassicalOptions classical;
@@ -27,8 +28,11 @@ struct CompareCommand : DetectorCommand {
 
 Result<figures::ComparisonOptions> CompareCommand::comparison(
     const DetectorOptions& detector) const {
-  figures::ComparisonOptions options{detector, classical};
+  figures::ComparisonOptions options;
+  options.detector = detector;
+  options.classical = classical;
   options.classical.canny = detector.canny;
+  options.panel_width = panel_width;
   for (const auto& known : kDenoiseMethods) {
     if (known.name == classical_denoiser) {
       options.classical_denoiser = known.value;
@@ -101,7 +105,7 @@ void add_compare(CLI::App& program, int& exit_code) {
       "compare", "Prewitt, Roberts, Sobel, LoG, Canny and thermedge on one sheet");
   auto command = std::make_shared<CompareCommand>();
   command->add_to(app);
-  FigureOutput::add_format_to(app, command->format);
+  FigureOutput::add_options_to(app, command->format, command->panel_width);
   app.add_option("--denoise", command->classical_denoiser,
                  "denoiser in front of the classical detectors (thermedge's own: --set "
                  "denoise.method=...)")

@@ -18,9 +18,16 @@ Result<FigureOutput> FigureOutput::create(const CommonOptions& common, const std
   return FigureOutput(common.output, format);
 }
 
-void FigureOutput::add_format_to(CLI::App& app, std::string& format) {
+void FigureOutput::add_options_to(CLI::App& app, std::string& format, double& panel_width) {
   app.add_option("--format", format, "of the figures in -o DIR: png, svg or pdf")
       ->check(CLI::IsMember({"png", "svg", "pdf"}))
+      ->capture_default_str();
+  add_panel_width_to(app, panel_width);
+}
+
+void FigureOutput::add_panel_width_to(CLI::App& app, double& panel_width) {
+  app.add_option("--panel-px", panel_width, "about the width of a picture on the sheet, px")
+      ->check(CLI::Range(100.0, 4000.0))
       ->capture_default_str();
 }
 

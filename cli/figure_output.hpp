@@ -23,7 +23,9 @@ class FigureOutput {
   [[nodiscard]] Status write(const std::string& name, const figures::Figure& figure);
   [[nodiscard]] Result<std::string> path(const std::string& name, const std::string& ending);
 
-  static void add_format_to(CLI::App& app, std::string& format);
+  // --format and --panel-px.
+  static void add_options_to(CLI::App& app, std::string& format, double& panel_width);
+  static void add_panel_width_to(CLI::App& app, double& panel_width);
 
  private:
   FigureOutput(std::string output, std::string format);

@@ -7,6 +7,7 @@
 
 #include "commands.hpp"
 #include "common.hpp"
+#include "figure_output.hpp"
 #include "probe_page.hpp"
 #include "thermedge/figures/probe_sheet.hpp"
 #include "thermedge/io/probe_file.hpp"
@@ -21,6 +22,7 @@ struct ProbeCommand {
   ProbeOptions probe;
   std::string camera;
   std::string toml;
+  double panel_width = figures::kPanelWidth;
   bool json = false;
 
   [[nodiscard]] int run() const;
@@ -80,8 +82,9 @@ Status ProbeCommand::write_files(const RecordingReport& result,
     status = io::write_file(toml, io::suggested_toml(result));
   }
   if (!common.output.empty()) {
-    status = status.and_then(
-        [&] { return figures::draw_probe(result, first_frame, name()).write(common.output); });
+    status = status.and_then([&] {
+      return figures::draw_probe(result, first_frame, name(), panel_width).write(common.output);
+    });
   }
   return status;
 }
@@ -108,6 +111,7 @@ void add_probe(CLI::App& program, int& exit_code) {
                  "how counts become degC: linear, optris, lepton, lepton-0.1, "
                  "linear:DEGC_PER_COUNT,DEGC_AT_ZERO or planck:R1,B,F,O,R2")
       ->excludes(worth);
+  FigureOutput::add_panel_width_to(app, command->panel_width);
   app.add_flag("--json", command->json, "everything as one JSON object");
   app.add_option("--toml", command->toml, "file for the suggested options, for detect --config");
   app.callback([command, &exit_code] { exit_code = command->run(); });

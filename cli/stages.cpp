@@ -11,6 +11,7 @@ namespace {
 
 struct StagesCommand : DetectorCommand {
   std::string format = "png";
+  double panel_width = figures::kPanelWidth;
 
   [[nodiscard]] int draw() const;
 };
@@ -32,7 +33,7 @@ int StagesCommand::draw() const {
     if (!output) {
       return report.fail(output.error());
     }
-    auto sheet = figures::StagesSheet::create(options);
+    auto sheet = figures::StagesSheet::create(options, panel_width);
     if (!sheet) {
       return report.fail(sheet.error());
     }
@@ -52,7 +53,7 @@ void add_stages(CLI::App& program, int& exit_code) {
   auto command = std::make_shared<StagesCommand>();
   command->add_to(app);
   command->add_denoising_to(app);
-  FigureOutput::add_format_to(app, command->format);
+  FigureOutput::add_options_to(app, command->format, command->panel_width);
   app.callback([command, &exit_code] { exit_code = command->draw(); });
 }
 

@@ -203,7 +203,7 @@ Figure ComparisonSheet::Impl::sheet(const Detection& detection, std::span<const 
       .footer =
           "After figures 14 and 15 of Vu Hoang Minh et al. 2017. The classical detectors are "
           "those of MATLAB's edge with its automatic thresholds."};
-  return make_sheet(text, panels, kColumns, panel_width_for(detection.width));
+  return make_sheet(text, panels, kColumns, panel_width_for(detection.width, options.panel_width));
 }
 
 Result<ComparisonSheet> ComparisonSheet::create(const ComparisonOptions& options) {

@@ -195,7 +195,7 @@ class ProbePanels {
 }  // namespace
 
 Figure draw_probe(const RecordingReport& report, ImageView<const std::uint16_t> frame,
-                  const std::string& source) {
+                  const std::string& source, double panel_width) {
   const ProbePanels drawn(report, frame);  // the panels refer to it
   const std::vector<Panel> panels = drawn.all();
   const SheetText text = {
@@ -204,7 +204,7 @@ Figure draw_probe(const RecordingReport& report, ImageView<const std::uint16_t> 
                               report.frames == 1 ? "" : "s",
                               report.snr ? fmt::format("{:.0f}", *report.snr) : "unknown"),
       .footer = "thermedge probe prints all figures, what they mean and which options suit."};
-  return make_sheet(text, panels, kColumns, panel_width_for(report.width));
+  return make_sheet(text, panels, kColumns, panel_width_for(report.width, panel_width));
 }
 
 }  // namespace thermedge::figures

@@ -6,8 +6,6 @@
 namespace thermedge::figures {
 namespace {
 
-constexpr double kUsualPanelWidth = 760;
-
 // Sizes of letters and gaps, all from the width of a panel.
 struct Typography {
   explicit Typography(double panel_width)
@@ -138,9 +136,9 @@ std::vector<Row> make_rows(std::span<const Cell> cells, int columns, double widt
 
 }  // namespace
 
-double panel_width_for(int width) {
-  const double zoom = kUsualPanelWidth / width;
-  return zoom >= 1 ? width * std::round(zoom) : kUsualPanelWidth;
+double panel_width_for(int width, double wanted) {
+  const double zoom = wanted / width;
+  return zoom >= 1 ? width * std::round(zoom) : wanted;
 }
 
 Figure make_sheet(const SheetText& text, std::span<const Panel> panels, int columns,

@@ -47,9 +47,9 @@ struct SheetText {
 // One panel alone, without a letter.
 [[nodiscard]] Figure make_single(const Panel& panel, double panel_width);
 
-// Points for a picture of `width` pixels: a whole number of points a pixel where that comes near
-// to the usual 760, so that pixels stay squares of one size.
-[[nodiscard]] double panel_width_for(int width);
+// Points for a picture of `width` pixels: near to `wanted`, and a whole number of points a pixel
+// where it is enlarged, so that pixels stay squares of one size.
+[[nodiscard]] double panel_width_for(int width, double wanted);
 
 struct TableRow {
   std::vector<std::string> cells;  // the first left-aligned, the others right-aligned

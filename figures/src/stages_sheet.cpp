@@ -277,6 +277,7 @@ std::vector<std::string> step_names(std::span<const Denoised> denoised) {
 
 struct StagesSheet::Impl {
   DetectorOptions options;
+  double wanted_width = kPanelWidth;
   std::vector<std::pair<DenoiseMethod, Detector>> detectors;  // the chosen one last
   std::vector<Denoised> denoised;
   Image<std::uint8_t> mask;
@@ -311,7 +312,7 @@ Result<StagesFigures> StagesSheet::Impl::draw(ImageView<const std::uint16_t> fra
 
   const std::vector<Panel> panels =
       StagePanels(options, *detection, denoised, mask.view(), bits).all();
-  const double panel_width = panel_width_for(frame.width());
+  const double panel_width = panel_width_for(frame.width(), wanted_width);
   const SheetText text = {
       .title = "From the frame to its edges, step by step",
       .subtitle = fmt::format("{}, {} x {} pixels, preset {}", source, frame.width(),
@@ -327,9 +328,10 @@ Result<StagesFigures> StagesSheet::Impl::draw(ImageView<const std::uint16_t> fra
   return figures;
 }
 
-Result<StagesSheet> StagesSheet::create(const DetectorOptions& options) {
+Result<StagesSheet> StagesSheet::create(const DetectorOptions& options, double wanted_width) {
   auto impl = std::make_unique<Impl>();
   impl->options = options;
+  impl->wanted_width = wanted_width;
   std::vector<DenoiseMethod> methods = {DenoiseMethod::kNlm, DenoiseMethod::kBm3d};
   std::erase(methods, options.denoise.method);
   methods.push_back(options.denoise.method);

@@ -77,7 +77,7 @@ TEST_F(ProbeProgram, DrawsAPictureAndKnowsCameras) {
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_GT(std::filesystem::file_size(directory_ / "x.svg"), 1000U);
   // The scene lies near 2700 counts: 27 K at 0.01 K a count.
-  EXPECT_NE(result.out.find("degC        as temperatures"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("as temperatures of black bodies"), std::string::npos) << result.out;
   const auto json = nlohmann::json::parse(
       run("probe 'sim:desk?width=96&height=72' --camera linear:0.04,-100 --json").out);
   EXPECT_EQ(json["degc_per_count"], 0.04);

@@ -241,12 +241,13 @@ TEST(Sheet, HoldsEveryPanelInItsPlace) {
 
 TEST(Sheet, PanelsHaveAWholeNumberOfPointsAPixel) {
   for (const int width : {80, 160, 320, 382, 384, 640}) {
-    const double points = panel_width_for(width);
+    const double points = panel_width_for(width, kPanelWidth);
     EXPECT_EQ(points, width * std::round(points / width)) << width;
     EXPECT_GE(points, 600) << width;
     EXPECT_LE(points, 1000) << width;
+    EXPECT_LE(panel_width_for(width, 300), 450) << width;
   }
-  EXPECT_EQ(panel_width_for(1920), 760);
+  EXPECT_EQ(panel_width_for(1920, kPanelWidth), 760);
 }
 
 Image<std::uint16_t> small_desk() {

@@ -20,6 +20,7 @@ struct ComparisonOptions {
   ClassicalOptions classical;
   // What runs in front of the classical detectors; they get the 8-bit view of Algorithm 1.
   DenoiseMethod classical_denoiser = DenoiseMethod::kNone;
+  double panel_width = kPanelWidth;  // about the width of a panel, points
 };
 
 // What one detector made of the frame.

@@ -12,6 +12,10 @@
 
 namespace thermedge::figures {
 
+// Width of a panel of a sheet, points, where nothing else is asked for; all lettering is a fixed
+// share of it.
+inline constexpr double kPanelWidth = 760;
+
 class Canvas;  // what a figure is drawn with; see figures/src/canvas.hpp
 
 // Holds a drawing as it was made, independent of resolution. Move-only. One thread at a time.

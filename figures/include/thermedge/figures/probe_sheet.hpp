@@ -14,6 +14,6 @@ namespace thermedge::figures {
 // of the noise, the offsets of columns and rows, and median and noise over time where there is a
 // sequence. `report` must be of at least one frame; `source` names the recording.
 [[nodiscard]] Figure draw_probe(const RecordingReport& report, ImageView<const std::uint16_t> frame,
-                                const std::string& source);
+                                const std::string& source, double panel_width = kPanelWidth);
 
 }  // namespace thermedge::figures

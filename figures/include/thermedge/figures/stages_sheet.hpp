@@ -29,8 +29,9 @@ struct StagesFigures {
 // the kept ones, a table of times. One object per thread.
 class StagesSheet {
  public:
-  // Fails where an option is out of range.
-  [[nodiscard]] static Result<StagesSheet> create(const DetectorOptions& options);
+  // `panel_width`: about the width of a panel, points. Fails where an option is out of range.
+  [[nodiscard]] static Result<StagesSheet> create(const DetectorOptions& options,
+                                                  double panel_width = kPanelWidth);
   StagesSheet(StagesSheet&&) noexcept;
   StagesSheet& operator=(StagesSheet&&) noexcept;
   ~StagesSheet();
