@@ -154,7 +154,7 @@ void Page::fixed_pattern() {
     return;
   }
   row("fixed", fmt::format("{:.2f}", *report_.fixed_pattern_sigma_counts),
-      fmt::format("offsets of pixels: {} of a typical one's variance",
+      fmt::format("offsets of the pixels: {} of the variance",
                   percent(*report_.fixed_pattern_share)));
   more(fmt::format("a map of 8 frames lowers sigma by {}, at best {}",
                    percent(*report_.offset_map_gain_8_frames),

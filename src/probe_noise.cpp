@@ -161,16 +161,13 @@ void TiledNoise::add_to_pattern() {
   // Sums stay below 2^31 / 2: a residual of more says nothing about noise.
   const double clip = std::min(kPatternClipSigmas * kResidualGain * last_sigma_, kLargestResidual);
   const auto limit = static_cast<std::int32_t>(clip);
-  magnitudes_.clear();
   for (int y = 0; y < residual_.height(); ++y) {
     const std::int32_t* from = residual_.row(y);
     std::int32_t* sums = pattern_sums_[part].row(y);
     for (int x = 0; x < residual_.width(); ++x) {
       sums[x] += std::clamp(from[x], -limit, limit);
-      magnitudes_.push_back(std::abs(from[x]));
     }
   }
-  typical_variance_.add(squared(sigma_of_magnitudes(magnitudes_) / kResidualGain));
 }
 
 std::optional<double> TiledNoise::temporal_sigma_counts() const {
@@ -191,7 +188,7 @@ std::optional<TiledNoise::Pattern> TiledNoise::pattern() const {
   if (pattern_frames_[0] + pattern_frames_[1] < kLeastPatternFrames) {
     return std::nullopt;
   }
-  std::vector<double> sums, differences, all_sums, all_differences;
+  std::vector<double> sums, differences;
   double variance = 0;
   for (const Tile& tile : tiles_) {
     sums.clear();
@@ -204,14 +201,11 @@ std::optional<TiledNoise::Pattern> TiledNoise::pattern() const {
         differences.push_back(std::abs(a - b));
       }
     }
-    all_sums.insert(all_sums.end(), sums.begin(), sums.end());
-    all_differences.insert(all_differences.end(), differences.begin(), differences.end());
     variance += (variance_of(sums) - variance_of(differences)) / 4;
   }
-  const double typical = (variance_of(all_sums) - variance_of(all_differences)) / 4;
-  const double of_all = typical_variance_.value();
-  return Pattern{std::sqrt(std::max(variance / static_cast<double>(tiles_.size()), 0.0)),
-                 of_all > 0 ? std::clamp(typical / of_all, 0.0, 1.0) : 0.0};
+  variance = std::max(variance / static_cast<double>(tiles_.size()), 0.0);
+  const double spatial = squared(sigma_counts());
+  return Pattern{std::sqrt(variance), spatial > 0 ? std::min(variance / spatial, 1.0) : 0.0};
 }
 
 }  // namespace thermedge::detail

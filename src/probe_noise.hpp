@@ -34,7 +34,7 @@ class TiledNoise {
 
   struct Pattern {
     double sigma_counts;  // root mean square over the tiles
-    double share;         // of the variance of a typical pixel
+    double share;         // of the spatial variance
   };
   [[nodiscard]] std::optional<Pattern> pattern() const;
 
@@ -55,7 +55,7 @@ class TiledNoise {
   std::vector<std::int32_t> slopes_, magnitudes_;
   std::vector<double> tile_sigma_sums_;
   double last_sigma_ = 0;
-  Mean spatial_, temporal_, typical_variance_;
+  Mean spatial_, temporal_;
   std::array<Image<std::int32_t>, 2> pattern_sums_;
   std::array<int, 2> pattern_frames_{};
 };

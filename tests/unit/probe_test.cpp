@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <numeric>
-
 #include "support/recordings.hpp"
 #include "thermedge/io/probe_file.hpp"
 #include "thermedge/noise.hpp"
@@ -32,7 +30,8 @@ auto even(double sigma) {
 
 std::vector<Image<std::uint16_t>> moving(int frames, double sigma, double pattern_sigma) {
   std::vector<Image<std::uint16_t>> recording;
-  for (const Image<float>& clean : clean_frames("sim:desk?frames=" + std::to_string(frames))) {
+  for (const Image<float>& clean :
+       clean_frames("sim:desk?width=256&height=192&frames=" + std::to_string(frames))) {
     recording.push_back(add_noise(clean.view(), even(sigma), pattern_sigma,
                                   static_cast<unsigned>(recording.size())));
   }
@@ -171,6 +170,13 @@ TEST(Probe, FindsFreezesAndTheJumpsAfterThem) {
   EXPECT_NEAR(report.largest_jump_counts, 60, 3);
   EXPECT_NEAR(report.temporal_sigma_counts.value_or(0), 5.8, 0.2) << "repeats are no frames";
   EXPECT_GT(report.flicker_counts.value_or(0), 3.0);
+}
+
+TEST(Probe, AFreezeWithoutAnOffsetIsNoShutter) {
+  const auto report = probe(with_repeats(scene_frames("sim:desk?frames=4"), {0, 6, 0, 0}));
+  EXPECT_EQ(report.longest_freeze, 6);
+  EXPECT_EQ(report.offset_jumps, 0);
+  EXPECT_EQ(report.largest_jump_counts, 0);
 }
 
 TEST(Probe, OfFreshFramesFindsNoFreeze) {
