@@ -124,8 +124,7 @@ ClassicalDetector::ClassicalDetector(const ClassicalOptions& options)
 
 Status ClassicalDetector::run(ImageView<const float> levels, ClassicalMethod method,
                               ImageView<std::uint8_t> edges, Runner& runner) {
-  const Status status =
-      check_options(options_).and_then([&] { return check_frame(levels, edges); });
+  Status status = check_options(options_).and_then([&] { return check_frame(levels, edges); });
   if (!status) {
     return status;
   }

@@ -140,7 +140,7 @@ class ProbePanels {
   }
 
   // Profiles of one scale in both panels, so that they can be compared.
-  [[nodiscard]] Panel stripes(std::string title, std::string label,
+  [[nodiscard]] Panel stripes(std::string title, const std::string& label,
                               const std::vector<double>& profile, double sigma) const {
     double largest = 0.1;
     for (const auto* both : {&report_.column_profile_counts, &report_.row_profile_counts}) {

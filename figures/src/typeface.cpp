@@ -55,7 +55,7 @@ cairo_font_face_t* make_font_face(Weight weight) {
     cairo_font_face_destroy(font);
     return nullptr;
   }
-  held.release();
+  static_cast<void>(held.release());  // Cairo destroys it with the font
   return font;
 }
 
