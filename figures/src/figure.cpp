@@ -18,8 +18,16 @@ namespace {
 // A page as wide as one of A3 for the widest sheets.
 constexpr double kPdfPointsPerPoint = 0.25;
 
+// The surface has one owner. Cairo 1.16's SVG output forgets a reference to what it has painted,
+// which would be lost memory.
 struct SurfaceDeleter {
-  void operator()(cairo_surface_t* surface) const { cairo_surface_destroy(surface); }
+  void operator()(cairo_surface_t* surface) const {
+    cairo_surface_finish(surface);
+    while (cairo_surface_get_reference_count(surface) > 1) {
+      cairo_surface_destroy(surface);
+    }
+    cairo_surface_destroy(surface);
+  }
 };
 using Surface = std::unique_ptr<cairo_surface_t, SurfaceDeleter>;
 
