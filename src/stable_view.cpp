@@ -56,12 +56,16 @@ ViewEvent StableView::place(ImageView<const std::uint16_t> frame) {
     base_level_ = kMiddleLevel;
     return ViewEvent::kStart;
   }
-  follow(median);
   const double lost = clipped(frame, anchor_counts_, base_level_).share();
-  clipped_frames_ = lost > options_.cut_clipped_share ? clipped_frames_ + 1 : 0;
-  if (clipped_frames_ < options_.cut_frames ||
-      clipped(frame, median, kMiddleLevel).share() > lost / 2) {
+  const bool jump_would_help =
+      lost > options_.cut_clipped_share && clipped(frame, median, kMiddleLevel).share() <= lost / 2;
+  if (!jump_would_help) {
+    clipped_frames_ = 0;
+    follow(median);
     return ViewEvent::kNone;
+  }
+  if (++clipped_frames_ < options_.cut_frames) {
+    return ViewEvent::kNone;  // rests: it may be a flash
   }
   anchor_counts_ = median;
   base_level_ = kMiddleLevel;

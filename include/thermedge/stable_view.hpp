@@ -20,7 +20,7 @@ struct StableViewOptions {
   // A scene cut: more than this share of the pixels, 0..1, is clipped ...
   double cut_clipped_share = 0.03;
   // ... for so many frames in a row, 1..1000, and at most half as much would be clipped with the
-  // view centred on the median. Shorter flashes pass.
+  // view centred on the median. Shorter flashes pass, and leave the view where it was.
   int cut_frames = 3;
 };
 

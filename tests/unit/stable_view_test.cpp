@@ -125,10 +125,12 @@ TEST(StableView, JumpsOnceAtASceneCut) {
 
 TEST(StableView, LetsAFlashPass) {
   Sequence sequence;
-  sequence.show(scene(3000, 1));
+  const double offset = sequence.show(scene(3000, 1)).offset;
   for (unsigned i = 0; i < 30; ++i) {
     const bool flash = i % 10 < 2;
-    EXPECT_EQ(sequence.show(scene(flash ? 9000 : 3000, i)).event, ViewEvent::kNone);
+    const ViewState state = sequence.show(scene(flash ? 9000 : 3000, i));
+    EXPECT_EQ(state.event, ViewEvent::kNone);
+    EXPECT_EQ(state.offset, offset);
   }
 }
 
