@@ -168,7 +168,8 @@ class CountsDenoiser {
     }
     copy_pixels(counts_.view(), working_.view());
     const double told = options_.denoise.sigma_counts;
-    return denoiser_.run(working_, told > 0 ? told : measured, working_, *runner_).map([&] {
+    const double sigma = told > 0 ? told : measured;
+    return denoiser_.run_measured(working_, sigma, working_, *runner_).map([&] {
       for (int y = 0; y < frame.height(); ++y) {
         std::transform(
             working_.row(y), working_.row(y) + frame.width(), counts_.row(y), [](float value) {

@@ -1,5 +1,6 @@
 #include "thermedge/denoise.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <new>
@@ -20,11 +21,11 @@ Status check_odd(int value, const std::string& name) {
                                   name + " = " + std::to_string(value) + ": must be odd");
 }
 
-Status check_power_of_two(int value, const std::string& name) {
-  return std::has_single_bit(static_cast<unsigned>(value))
-             ? Status{}
-             : failure(ErrorCode::kInvalidArgument,
-                       name + " = " + std::to_string(value) + ": must be 1, 2, 4, 8, 16 or 32");
+Status check_zero_or(bool ok, int value, const std::string& name, const std::string& right) {
+  return value == 0 || ok ? Status{}
+                          : failure(ErrorCode::kInvalidArgument,
+                                    name + " = " + std::to_string(value) + ": must be " + right +
+                                        ", or 0 for what the profile has");
 }
 
 Status check_sigma_px(double sigma_px) {
@@ -39,12 +40,23 @@ Status check_denoise_options(const DenoiseOptions& options) {
   if (Status status = check_ranges(options, "denoise."); !status) {
     return status;
   }
+  const Bm3dOptions& bm3d = options.bm3d;
+  const auto is_power_of_two = [](int value) {
+    return std::has_single_bit(static_cast<unsigned>(value));
+  };
+  const auto check_group = [&](int value, const std::string& name) {
+    return check_zero_or(is_power_of_two(value), value, name, "1, 2, 4, 8, 16 or 32");
+  };
   for (const Status& status :
        {check_sigma_px(options.gaussian.sigma_px),
         check_odd(options.nlm.patch_px, "denoise.nlm.patch_px"),
         check_odd(options.nlm.search_px, "denoise.nlm.search_px"),
-        check_power_of_two(options.bm3d.group_hard, "denoise.bm3d.group_hard"),
-        check_power_of_two(options.bm3d.group_wiener, "denoise.bm3d.group_wiener")}) {
+        check_zero_or(is_power_of_two(bm3d.step_px), bm3d.step_px, "denoise.bm3d.step_px",
+                      "1, 2, 4 or 8"),
+        check_zero_or(bm3d.search_radius_px >= 4, bm3d.search_radius_px,
+                      "denoise.bm3d.search_radius_px", "4 to 32"),
+        check_group(bm3d.group_hard, "denoise.bm3d.group_hard"),
+        check_group(bm3d.group_wiener, "denoise.bm3d.group_wiener")}) {
     if (!status) {
       return status;
     }
@@ -63,10 +75,19 @@ Status check_input(ImageView<const float> in, ImageView<float> out) {
 }
 
 Status check_sigma(double sigma) {
-  return sigma >= 0 && std::isfinite(sigma)
+  return sigma > 0 && std::isfinite(sigma)
              ? Status{}
              : failure(ErrorCode::kInvalidArgument,
-                       "sigma = " + std::to_string(sigma) + ": must be finite and not negative");
+                       "sigma = " + std::to_string(sigma) +
+                           ": the noise must be a finite number above 0");
+}
+
+Status check_side(ImageView<const float> in) {
+  return std::min(in.width(), in.height()) >= detail::kBlockPx
+             ? Status{}
+             : failure(ErrorCode::kInvalidArgument,
+                       "frame of " + std::to_string(in.width()) + " x " +
+                           std::to_string(in.height()) + " pixels: bm3d needs 8 x 8 or more");
 }
 
 }  // namespace
@@ -86,10 +107,42 @@ struct Denoiser::Impl {
       case DenoiseMethod::kNlm:
         return run_in_noise_units(nlm, in, sigma, out, runner);
       case DenoiseMethod::kBm3d:
+        if (Status status = check_side(in); !status) {
+          return status;
+        }
         return run_in_noise_units(bm3d, in, sigma, out, runner);
     }
     return failure(ErrorCode::kInvalidArgument,
                    "denoise.method: must be none, gaussian, nlm or bm3d");
+  }
+
+  // Checks what does not depend on the method, and turns bad_alloc into a Status.
+  template <class Process>
+  Status guarded(ImageView<const float> in, ImageView<float> out, const Process& process) {
+    if (!options_status) {
+      return options_status;
+    }
+    if (Status status = check_input(in, out); !status) {
+      return status;
+    }
+    try {
+      return process();
+    } catch (const std::bad_alloc&) {
+      return failure(ErrorCode::kOutOfMemory, "denoise: out of memory for a frame of " +
+                                                  std::to_string(in.width()) + " x " +
+                                                  std::to_string(in.height()) + " pixels");
+    }
+  }
+
+  // Prepares all the same, so that a clean first frame counts as one.
+  Status copy_clean(ImageView<const float> in, ImageView<float> out) {
+    if (options.method == DenoiseMethod::kNlm) {
+      nlm.prepare(in.width(), in.height());
+    } else {
+      bm3d.prepare(in.width(), in.height());
+    }
+    copy_pixels(in, out);
+    return {};
   }
 
   template <class Filter>
@@ -114,7 +167,7 @@ struct Denoiser::Impl {
   Status options_status;
   detail::GaussianFilter gaussian{options.gaussian};
   detail::NonLocalMeans nlm{options.nlm};
-  detail::Bm3d bm3d{options.bm3d};
+  detail::Bm3d bm3d{options_status ? options.bm3d : Bm3dOptions{}};
 };
 
 Denoiser::Denoiser(const DenoiseOptions& options) : impl_(std::make_unique<Impl>(options)) {}
@@ -124,19 +177,16 @@ Denoiser::~Denoiser() = default;
 
 Status Denoiser::run(ImageView<const float> in, double sigma, ImageView<float> out,
                      Runner& runner) {
-  if (!impl_->options_status) {
-    return impl_->options_status;
+  return impl_->guarded(in, out, [&] { return impl_->run(in, sigma, out, runner); });
+}
+
+Status Denoiser::run_measured(ImageView<const float> in, double sigma, ImageView<float> out,
+                              Runner& runner) {
+  const DenoiseMethod method = impl_->options.method;
+  if (sigma == 0 && (method == DenoiseMethod::kNlm || method == DenoiseMethod::kBm3d)) {
+    return impl_->guarded(in, out, [&] { return impl_->copy_clean(in, out); });
   }
-  if (Status status = check_input(in, out); !status) {
-    return status;
-  }
-  try {
-    return impl_->run(in, sigma, out, runner);
-  } catch (const std::bad_alloc&) {
-    return failure(ErrorCode::kOutOfMemory, "denoise: out of memory for a frame of " +
-                                                std::to_string(in.width()) + " x " +
-                                                std::to_string(in.height()) + " pixels");
-  }
+  return run(in, sigma, out, runner);
 }
 
 }  // namespace thermedge

@@ -1,7 +1,6 @@
 // BM3D (Dabov et al. 2007; parameters as in Lebrun, IPOL 2012).
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
 #include "denoise_frame.hpp"
@@ -13,7 +12,8 @@ namespace thermedge::detail {
 
 // Both stages do the same: match blocks on a guide (the frame itself, then the first estimate),
 // filter each group, add the blocks up. Reference blocks are cut into bands of rows; each band has
-// its own sums, which are merged in band order.
+// its own sums, which are merged in band order. The frame is continued to the right and down by
+// mirroring until the reference blocks cover it.
 class Bm3d {
  public:
   explicit Bm3d(const Bm3dOptions& options);
@@ -28,40 +28,40 @@ class Bm3d {
  private:
   enum class Stage { kHard, kWiener };
   struct Band {
-    int first_reference_row = 0;
-    int end_reference_row = 0;
-    int first_row = 0;  // rows of the frame that its blocks may touch
+    int first_y = 0;  // rows of the reference blocks
+    int end_y = 0;
+    int first_row = 0;  // rows of the frame that the blocks of their groups may touch
     int end_row = 0;
   };
-
-  void quantise_row(const float* values, int y);
-  void load(ImageView<const float> in, const NoiseUnits& units, Runner& runner);
-  void run_stage(Stage stage, Runner& runner);
-  void filter_band(Stage stage, int band);
-  void merge_rows(int first_row, int end_row);
-  void finish_rows(int first_row, int end_row);
+  struct BandScratch {
+    Image<float> sums;
+    Image<float> weights;
+    MatchScratch match;
+    std::vector<BlockGroup> groups;  // of a row
+  };
 
   [[nodiscard]] Band band(int index) const;
-  [[nodiscard]] SearchWindow window_of(BlockPosition reference) const;
-  [[nodiscard]] Accumulator accumulator(int band);
+  void load(ImageView<const float> in, const NoiseUnits& units, Runner& runner);
+  void run_stage(Stage stage, Runner& runner);
+  void filter_band(Stage stage, int index);
+  void filter_row(Stage stage, int y, BandScratch& scratch, const Accumulator& sums) const;
+  void merge_row(int y);
+  void finish_row(int y);
 
   Bm3dOptions options_;
+  SearchPattern pattern_;
   float profile_[kBlockPx];  // Kaiser window
   BlockWindow window_;       // its product with itself
 
-  int width_ = 0;  // of the frame, at least a block
+  int width_ = 0;  // of the continued frame
   int height_ = 0;
-  int bands_ = 0;
-  int band_rows_ = 0;           // most rows that the blocks of a band may touch
-  Image<float> noisy_;          // in units of the noise
-  Image<float> estimate_;       // of the stage before
-  Image<std::int16_t> levels_;  // the guide as integers, for matching
-  Image<std::int16_t> transposed_levels_;
-  Image<float> band_sums_;  // band_rows_ rows for each band
-  Image<float> band_weights_;
-  Image<float> sums_;                        // merged
-  Image<float> weights_;                     // merged, and spread by profile_ along the rows
-  std::vector<MatchScratch> match_scratch_;  // one a band
+  Image<float> noisy_;     // in units of the noise
+  Image<float> estimate_;  // of the stage before
+  MatchGuide guide_;
+  std::vector<BandScratch> bands_;
+  Image<float> sums_;            // merged
+  Image<float> corner_weights_;  // merged; columns begin left of the frame
+  Image<float> weights_;         // spread by profile_ along the rows; rows begin above the frame
 };
 
 }  // namespace thermedge::detail

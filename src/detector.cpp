@@ -167,7 +167,8 @@ Status Detector::Impl::denoise(int bits) {
   working.resize(result.width, result.height);
   denoised.resize(result.width, result.height);
   copy_pixels(result.levels, working.view());
-  return denoiser.run(working, result.sigma_counts * levels_per_count, working, *runner).map([&] {
+  const double sigma_levels = result.sigma_counts * levels_per_count;
+  return denoiser.run_measured(working, sigma_levels, working, *runner).map([&] {
     for (int y = 0; y < result.height; ++y) {
       std::transform(working.row(y), working.row(y) + result.width, denoised.row(y), to_level);
     }

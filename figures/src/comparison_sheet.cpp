@@ -120,7 +120,7 @@ Result<ComparedMap> ComparisonSheet::Impl::run_classical(const ClassicalName& me
   map.edges.resize(levels.width(), levels.height());
   Image<float> denoised(levels.width(), levels.height());
   return timed([&] {
-           return denoiser.run(levels, sigma_levels, denoised, *runner).and_then([&] {
+           return denoiser.run_measured(levels, sigma_levels, denoised, *runner).and_then([&] {
              return classical.run(denoised, method.method, map.edges, *runner);
            });
          })

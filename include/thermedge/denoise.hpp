@@ -22,16 +22,24 @@ struct NlmOptions {
   double h_over_sigma = 0.9;  // filter strength in units of the noise, 0.1..5
 };
 
-// Dabov et al. 2007, parameters as in Lebrun's analysis (IPOL 2012).
+// How much time BM3D may take; docs/benchmarks.md has what each gives.
+enum class Bm3dProfile { kQuality, kBalanced, kFast };
+
+// Dabov et al. 2007; the roles of the parameters as in Lebrun's analysis (IPOL 2012). A 0 stands
+// for what the profile has.
 struct Bm3dOptions {
-  int step_px = 3;            // distance of reference blocks, 1..8; time falls with its square
-  int search_radius_px = 16;  // +- displacement of matched blocks, 4..32
-  int group_hard = 16;        // most blocks in a group of stage 1: 1, 2, 4, 8, 16 or 32
-  int group_wiener = 32;      // most blocks in a group of stage 2: 1, 2, 4, 8, 16 or 32
-  double lambda = 2.7;        // hard threshold in units of sigma, 0.5..10
-  double kaiser_beta = 2.0;   // window of the aggregation, 0..10
-  bool wiener = true;         // run stage 2 (costs as much as stage 1, gives 0.3 to 0.6 dB)
+  Bm3dProfile profile = Bm3dProfile::kBalanced;
+  int step_px = 0;           // distance of reference blocks, 1, 2, 4 or 8; time falls with its square
+  int search_radius_px = 0;  // largest displacement of matched blocks, 4..32
+  int group_hard = 0;        // most blocks in a group of stage 1: 1, 2, 4, 8, 16 or 32
+  int group_wiener = 0;      // most blocks in a group of stage 2: 1, 2, 4, 8, 16 or 32
+  double lambda = 2.6;       // hard threshold in units of sigma, 0.5..10
+  double kaiser_beta = 2.0;  // window of the aggregation, 0..10
+  bool wiener = true;        // run stage 2 (costs as much as stage 1, gives 0.3 to 0.6 dB)
 };
+
+// The same options with the profile's numbers in place of zeros.
+[[nodiscard]] Bm3dOptions resolved(const Bm3dOptions& options);
 
 struct DenoiseOptions {
   DenoiseMethod method = DenoiseMethod::kBm3d;
@@ -53,12 +61,16 @@ class Denoiser {
 
   // `in` -> `out`, same size, values up to 1e36; `sigma` is the noise in the units of `in`
   // (options.sigma_counts is for the caller to interpret). `out` may be `in`.
-  // Frames smaller than a block are mirrored out, so every size from 1x1 works.
   // Errors: sizes differ or empty; a pixel is NaN or infinite; an option out of range; for nlm and
-  // bm3d, sigma NaN, infinite or negative; out of memory. Sigma 0 copies the frame, and so does one
-  // below 1e-15 of the frame's range.
+  // bm3d, sigma not positive and finite; for bm3d, a side under 8 px; out of memory. A sigma below
+  // 1e-15 of the frame's range copies the frame.
   [[nodiscard]] Status run(ImageView<const float> in, double sigma, ImageView<float> out,
                            Runner& runner);
+
+  // The same for the `sigma` that NoiseEstimator measured: where it found none, which it says with
+  // 0, there is nothing to remove and the frame is copied.
+  [[nodiscard]] Status run_measured(ImageView<const float> in, double sigma, ImageView<float> out,
+                                    Runner& runner);
 
  private:
   struct Impl;

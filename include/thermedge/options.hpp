@@ -62,6 +62,9 @@ EnumName(E, std::string_view) -> EnumName<E>;
 inline constexpr std::array kDenoiseMethods = {
     EnumName{DenoiseMethod::kNone, "none"}, EnumName{DenoiseMethod::kGaussian, "gaussian"},
     EnumName{DenoiseMethod::kNlm, "nlm"}, EnumName{DenoiseMethod::kBm3d, "bm3d"}};
+inline constexpr std::array kBm3dProfiles = {EnumName{Bm3dProfile::kQuality, "quality"},
+                                             EnumName{Bm3dProfile::kBalanced, "balanced"},
+                                             EnumName{Bm3dProfile::kFast, "fast"}};
 inline constexpr std::array kPresets = {EnumName{Preset::kPaper, "paper"}};
 
 template <class O, class Options>
@@ -108,11 +111,14 @@ void visit_options(O& o, V&& v) {
 
 template <OptionsOf<Bm3dOptions> O, class V>
 void visit_options(O& o, V&& v) {
-  v("step_px", o.step_px, Bounds{1, 8}, "distance of reference blocks, px");
-  v("search_radius_px", o.search_radius_px, Bounds{4, 32}, "reach of block matching, px");
-  v("group_hard", o.group_hard, Bounds{1, 32}, "most blocks a group in stage 1, a power of two");
-  v("group_wiener", o.group_wiener, Bounds{1, 32},
-    "most blocks a group in stage 2, a power of two");
+  v("profile", o.profile, kBm3dProfiles, "quality, balanced or fast");
+  v("step_px", o.step_px, Bounds{0, 8}, "distance of reference blocks, px (0: the profile's)");
+  v("search_radius_px", o.search_radius_px, Bounds{0, 32},
+    "reach of block matching, px (0: the profile's)");
+  v("group_hard", o.group_hard, Bounds{0, 32},
+    "most blocks a group in stage 1, a power of two (0: the profile's)");
+  v("group_wiener", o.group_wiener, Bounds{0, 32},
+    "most blocks a group in stage 2, a power of two (0: the profile's)");
   v("lambda", o.lambda, Bounds{0.5, 10}, "hard threshold in units of the noise");
   v("kaiser_beta", o.kaiser_beta, Bounds{0, 10}, "shape of the aggregation window");
   v("wiener", o.wiener, Bounds{0, 1}, "run the second stage");

@@ -1,6 +1,9 @@
 #include "simd/bm3d_match.hpp"
 
 #include <algorithm>
+#include <bit>
+#include <cassert>
+#include <cstdlib>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "simd/bm3d_match.cpp"
@@ -14,9 +17,29 @@
 #define THERMEDGE_SIMD_BM3D_MATCH_ONCE
 namespace thermedge::detail {
 
-inline constexpr int kLargestLanes = 32;
-inline constexpr int kLargestWindow = 2 * kLargestSearchRadius + 1;
-inline constexpr int kBlockPixels = kBlockPx * kBlockPx;
+inline constexpr int kWidestLanes = 32;  // of any target
+inline constexpr int kCellPixels = kCellPx * kCellPx;
+inline constexpr std::int16_t kNoMatch = 0x7ffe;  // beyond every distance
+inline constexpr std::uint16_t kFarthest = 0x7ffd;
+
+// Levels in a unit of the noise: noise alone makes a sum of 64 absolute differences of about 290,
+// so good matches stay far below the largest distance.
+inline constexpr float kLevelsPerSigma = 4;
+
+inline int rounded_up(int value, int multiple) {
+  return (value + multiple - 1) / multiple * multiple;
+}
+
+struct Search {
+  [[nodiscard]] int last_x() const { return guide.width() - kBlockPx; }
+  [[nodiscard]] int last_y() const { return guide.height() - kBlockPx; }
+  // Cells from the first reference block to the last.
+  [[nodiscard]] int lanes() const { return (row.count - 1) * row.every + 1; }
+
+  const MatchGuide& guide;
+  const SearchPattern& pattern;
+  const ReferenceRow& row;
+};
 
 }  // namespace thermedge::detail
 #endif
@@ -26,212 +49,249 @@ namespace thermedge::detail {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-using U16 = hn::CappedTag<std::uint16_t, kLargestLanes>;
+using U16 = hn::CappedTag<std::uint16_t, kWidestLanes>;
 using I16 = hn::RebindToSigned<U16>;
 constexpr int kLanes = static_cast<int>(hn::MaxLanes(U16()));
 
-// Each pixel of the reference block in all lanes of a vector.
-struct ReferenceBlock {
-  ReferenceBlock(ImageView<const std::int16_t> levels, BlockPosition at) {
-    for (int i = 0; i < kBlockPixels; ++i) {
-      const std::int16_t level = levels(at.x + i % kBlockPx, at.y + i / kBlockPx);
-      hn::Store(hn::Set(I16(), level), I16(), pixels + i * kLanes);
+void quantise_row(const float* values, int columns, std::int16_t* phases, std::ptrdiff_t stride) {
+  const hn::CappedTag<float, kWidestLanes / 2> d;
+  const hn::Rebind<std::int16_t, decltype(d)> d16;
+  const auto scale = hn::Set(d, kLevelsPerSigma);
+  const auto largest = hn::Set(d, 1.0e9F);  // an integer of 32 bits holds it
+  for (int x = 0; x < columns; x += static_cast<int>(hn::Lanes(d))) {
+    hn::Vec<decltype(d)> phase[kCellPx];
+    hn::LoadInterleaved4(d, values + kCellPx * x, phase[0], phase[1], phase[2], phase[3]);
+    for (int p = 0; p < kCellPx; ++p) {
+      const auto level = hn::Max(hn::Min(phase[p] * scale, largest), hn::Neg(largest));
+      // The low half of the integer, as a signed number that nothing saturates.
+      const auto low_half = hn::ShiftRight<16>(hn::ShiftLeft<16>(hn::NearestInt(level)));
+      hn::StoreU(hn::DemoteTo(d16, low_half), d16, phases + p * stride + x);
     }
   }
-  HWY_ALIGN std::int16_t pixels[kBlockPixels * kLanes];
-};
+}
 
-// Distances of kRows x kLanes blocks, the first at `first`; a row of candidate pixels is loaded
-// once for all blocks that it is part of.
-template <int kRows>
-HWY_INLINE void distances_at(const std::int16_t* first, std::ptrdiff_t stride,
-                             const ReferenceBlock& reference, std::uint16_t* distances,
-                             std::ptrdiff_t distances_stride) {
+// Which lanes are set, as bits.
+template <class Mask>
+HWY_INLINE std::uint64_t lanes_of(Mask mask) {
+  HWY_ALIGN std::uint8_t bits[8] = {};
+  hn::StoreMaskBits(I16(), mask, bits);
+  std::uint64_t lanes = 0;
+  hwy::CopyBytes<sizeof(lanes)>(bits, &lanes);
+  return lanes;
+}
+
+// Sums of absolute differences over the cells of the reference blocks that begin at row `y`, for
+// all candidates of one dy.
+void sum_cells(const Search& search, int y, std::span<const SearchPattern::Candidate> candidates,
+               ImageView<std::uint16_t> cells) {
   const U16 d;
   const I16 di;
-  const auto largest = hn::Set(d, 255);
-  hn::Vec<U16> sums[kRows];
-  for (auto& sum : sums) {
-    sum = hn::Zero(d);
+  const ImageView<const std::int16_t> phases = search.guide.phases();
+  const std::ptrdiff_t stride = phases.stride();
+  const auto offset_of = [&](int x) { return (x & (kCellPx - 1)) * stride + (x >> 2); };
+  const int x0 = search.row.x;
+  for (int lane = 0; lane <= search.lanes(); lane += kLanes) {
+    const int column = search.guide.margin() + lane;
+    const std::int16_t* reference = phases.row(y * kCellPx) + column;
+    const std::int16_t* candidate = phases.row((y + candidates[0].dy) * kCellPx) + column;
+    hn::Vec<I16> pixels[kCellPixels];
+    HWY_UNROLL(16)
+    for (int i = 0; i < kCellPixels; ++i) {
+      pixels[i] =
+          hn::LoadU(di, reference + (i / kCellPx) * kCellPx * stride + offset_of(x0 + i % kCellPx));
+    }
+    for (std::size_t k = 0; k < candidates.size(); ++k) {
+      std::ptrdiff_t offsets[kCellPx];
+      for (int i = 0; i < kCellPx; ++i) {
+        offsets[i] = offset_of(x0 + candidates[k].dx + i);
+      }
+      auto sum = hn::Zero(d);
+      HWY_UNROLL(16)
+      for (int i = 0; i < kCellPixels; ++i) {
+        const auto* other = candidate + (i / kCellPx) * kCellPx * stride + offsets[i % kCellPx];
+        const auto difference = hn::Abs(hn::LoadU(di, other) - pixels[i]);
+        sum = hn::SaturatedAdd(sum, hn::BitCast(d, difference));
+      }
+      hn::Store(sum, d, cells.row(static_cast<int>(k)) + lane);
+    }
   }
-  for (int y = 0; y < kBlockPx + kRows - 1; ++y) {
-    for (int x = 0; x < kBlockPx; ++x) {
-      const auto candidate = hn::LoadU(di, first + y * stride + x);
-      HWY_UNROLL(4)
-      for (int row = 0; row < kRows; ++row) {
-        const int y_in_block = y - row;
-        if (y_in_block >= 0 && y_in_block < kBlockPx) {
-          const auto* pixel = reference.pixels + (y_in_block * kBlockPx + x) * kLanes;
-          const auto difference = hn::BitCast(d, hn::Abs(candidate - hn::Load(di, pixel)));
-          const auto level = hn::Min(difference, largest);
-          sums[row] = hn::SaturatedAdd(sums[row], level * level);
+}
+
+// A cell and the one right of it.
+HWY_INLINE hn::Vec<U16> sum_of_two(const std::uint16_t* cells) {
+  return hn::SaturatedAdd(hn::Load(U16(), cells), hn::LoadU(U16(), cells + 1));
+}
+
+// Sums over the upper halves of the blocks.
+void begin_pairs(const Search& search, MatchScratch& scratch) {
+  const SearchPattern& pattern = search.pattern;
+  for (int dy = -pattern.radius_px(); dy <= pattern.radius_px(); ++dy) {
+    const int y = search.row.y + dy;
+    if (y < 0 || y > search.last_y()) {
+      continue;
+    }
+    const auto candidates = pattern.row(dy);
+    sum_cells(search, search.row.y, candidates, scratch.cells);
+    for (int k = 0; k < static_cast<int>(candidates.size()); ++k) {
+      for (int x = 0; x < search.lanes(); x += kLanes) {
+        hn::Store(sum_of_two(scratch.cells.row(k) + x), U16(),
+                  scratch.pairs.row(pattern.row_begin(dy) + k) + x);
+      }
+    }
+  }
+}
+
+// Distances in the lanes where the candidate lies in the frame.
+HWY_INLINE hn::Vec<I16> distances_of(const Search& search, SearchPattern::Candidate candidate,
+                                     int x, hn::Vec<U16> sums) {
+  const U16 d;
+  const I16 di;
+  if (candidate.dx == 0 && candidate.dy == 0) {
+    return hn::Zero(di);
+  }
+  const auto distances = hn::BitCast(
+      di, hn::Min(hn::SaturatedAdd(sums, hn::Set(d, 1)), hn::Set(d, kFarthest)));
+  const int left = search.row.x + kCellPx * x + candidate.dx;  // of the first lane
+  const int right = left + kCellPx * (kLanes - 1);
+  if (left >= 0 && right <= search.last_x()) {
+    return distances;
+  }
+  const auto lanes = hn::Iota(di, 0);
+  const int outside_left = left < 0 ? (-left + kCellPx - 1) / kCellPx : 0;
+  const int inside = search.last_x() < left ? 0 : (search.last_x() - left) / kCellPx + 1;
+  const auto too_far = hn::Or(lanes < hn::Set(di, static_cast<std::int16_t>(outside_left)),
+                              hn::Not(lanes < hn::Set(di, static_cast<std::int16_t>(inside))));
+  return hn::IfThenElse(too_far, hn::Set(di, kNoMatch), distances);
+}
+
+// Of each class the least distance and the first candidate that has it; and the sums over the
+// lower halves of all blocks.
+void find_nearest(const Search& search, MatchScratch& scratch) {
+  const U16 d;
+  const I16 di;
+  const SearchPattern& pattern = search.pattern;
+  fill_pixels(scratch.least.view(), kNoMatch);
+  for (int dy = -pattern.radius_px(); dy <= pattern.radius_px(); ++dy) {
+    const int y = search.row.y + dy;
+    if (y < -kCellPx || y > search.last_y()) {
+      continue;
+    }
+    const auto candidates = pattern.row(dy);
+    sum_cells(search, search.row.y + kCellPx, candidates, scratch.cells);
+    for (int k = 0; k < static_cast<int>(candidates.size()); ++k) {
+      const SearchPattern::Candidate candidate = candidates[static_cast<std::size_t>(k)];
+      const int index = pattern.row_begin(dy) + k;
+      const std::uint16_t* cells = scratch.cells.row(k);
+      std::uint16_t* pairs = scratch.pairs.row(index);
+      std::int16_t* least = scratch.least.row(candidate.neighbours);
+      std::int16_t* nearest = scratch.nearest.row(candidate.neighbours);
+      for (int x = 0; x < search.lanes(); x += kLanes) {
+        const auto lower = sum_of_two(cells + x);
+        if (y >= 0) {
+          const auto sums = hn::SaturatedAdd(hn::Load(d, pairs + x), lower);
+          const auto distance = distances_of(search, candidate, x, sums);
+          const auto before = hn::Load(di, least + x);
+          const auto is_less = distance < before;
+          const auto self = hn::Set(di, static_cast<std::int16_t>(index));
+          hn::Store(hn::IfThenElse(is_less, self, hn::Load(di, nearest + x)), di, nearest + x);
+          hn::Store(hn::Min(distance, before), di, least + x);
         }
+        hn::Store(lower, d, pairs + x);
       }
     }
   }
-  for (int row = 0; row < kRows; ++row) {
-    hn::Store(sums[row], d, distances + row * distances_stride);
-  }
 }
 
-// Distances of the blocks in columns [first_column, end_column), kLanes at a time.
-void distances_by_rows(ImageView<const std::int16_t> levels, const ReferenceBlock& reference,
-                       const SearchWindow& window, int first_column, int end_column,
-                       ImageView<std::uint16_t> distances) {
-  constexpr int kRows = 4;
-  for (int x = first_column; x < end_column; x += kLanes) {
-    int y = 0;
-    for (; y + kRows <= window.height; y += kRows) {
-      distances_at<kRows>(levels.row(window.y + y) + window.x + x, levels.stride(), reference,
-                          distances.row(y) + x, distances.stride());
-    }
-    for (; y < window.height; ++y) {
-      distances_at<1>(levels.row(window.y + y) + window.x + x, levels.stride(), reference,
-                      distances.row(y) + x, distances.stride());
-    }
-  }
-}
-
-// The same for a few columns, along which the blocks fill vectors better than along the rows.
-void distances_by_columns(ImageView<const std::int16_t> transposed,
-                          const ReferenceBlock& transposed_reference, const SearchWindow& window,
-                          int first_column, int end_column, ImageView<std::uint16_t> distances) {
-  HWY_ALIGN std::uint16_t column[kLargestWindow + kLargestLanes];
-  for (int x = first_column; x < end_column; ++x) {
-    for (int y = 0; y < window.height; y += kLanes) {
-      distances_at<1>(transposed.row(window.x + x) + window.y + y, transposed.stride(),
-                      transposed_reference, column + y, 0);
-    }
-    for (int y = 0; y < window.height; ++y) {
-      distances(x, y) = column[y];
-    }
-  }
-}
-
-// Distances of all blocks of the window; lanes behind its last column get the largest. A window of
-// 2 r + 1 columns leaves a single one behind its whole vectors.
-void window_distances(const MatchGuide& guide, BlockPosition at, const SearchWindow& window,
-                      ImageView<std::uint16_t> distances) {
-  constexpr int kFewColumns = 4;
-  const int whole = window.width / kLanes * kLanes;
-  const bool few_left = window.width - whole <= kFewColumns;
-  const int by_rows = few_left ? whole : window.width;
-  distances_by_rows(guide.levels, ReferenceBlock(guide.levels, at), window, 0, by_rows, distances);
-  if (by_rows < window.width) {
-    const ReferenceBlock transposed(guide.transposed, {at.y, at.x});
-    distances_by_columns(guide.transposed, transposed, window, by_rows, window.width, distances);
-  }
-  const int padded = (window.width + kLanes - 1) / kLanes * kLanes;
-  for (int y = 0; y < window.height; ++y) {
-    std::fill(distances.row(y) + window.width, distances.row(y) + padded, std::uint16_t{0xffff});
-  }
-}
-
-// The element of rank `rank` (1: the smallest) of `vectors` vectors, found bit by bit from the top;
-// 65535 where there are fewer.
-HWY_INLINE std::uint16_t ranked(const std::uint16_t* values, int vectors, int rank) {
-  const U16 d;
-  unsigned found = 0;
-  for (unsigned bit = 0x8000; bit != 0; bit >>= 1) {
-    const auto limit = hn::Set(d, static_cast<std::uint16_t>(found | bit));
-    int below = 0;
-    for (int i = 0; i < vectors; ++i) {
-      below += static_cast<int>(hn::CountTrue(d, hn::Load(d, values + i * kLanes) < limit));
-    }
-    if (below < rank) {
-      found |= bit;
-    }
-  }
-  return static_cast<std::uint16_t>(found);
-}
-
-// A distance that at least `rank` blocks do not exceed: the element of this rank among the
-// smallest of every fourth row of each column.
-HWY_INLINE std::uint16_t bound_of(ImageView<const std::uint16_t> distances,
-                                  const SearchWindow& window, int rank) {
-  constexpr int kParts = 4;
-  const U16 d;
-  HWY_ALIGN std::uint16_t smallest[kParts * (kLargestWindow + kLargestLanes)];
-  int vectors = 0;
-  for (int x = 0; x < window.width; x += kLanes) {
-    for (int part = 0; part < kParts; ++part) {
-      auto least = hn::Set(d, 0xffff);
-      for (int y = part; y < window.height; y += kParts) {
-        least = hn::Min(least, hn::Load(d, distances.row(y) + x));
-      }
-      hn::Store(least, d, smallest + vectors * kLanes);
-      ++vectors;
-    }
-  }
-  return ranked(smallest, vectors, rank);
-}
-
-// Collects the blocks within `bound` but the reference block, in the order of their index; returns
-// their number.
-int collect(const SearchWindow& window, std::uint16_t bound, int reference_index,
-            MatchScratch& scratch) {
-  const U16 d;
-  const auto limit = hn::Set(d, bound);
-  std::uint16_t* distances = scratch.candidates.row(0);
-  std::uint16_t* indices = scratch.candidates.row(1);
-  int count = 0;
-  for (int y = 0; y < window.height; ++y) {
-    const std::uint16_t* row = scratch.distances.row(y);
-    for (int x = 0; x < window.width; x += kLanes) {
-      HWY_ALIGN std::uint8_t bits[8] = {};
-      hn::StoreMaskBits(d, hn::Not(hn::Load(d, row + x) > limit), bits);
-      std::uint64_t lanes = 0;
-      hwy::CopyBytes<sizeof(lanes)>(bits, &lanes);
-      for (; lanes != 0; lanes &= lanes - 1) {
-        const int column = x + static_cast<int>(hwy::Num0BitsBelowLS1Bit_Nonzero64(lanes));
-        const int index = y * window.width + column;
-        if (column < window.width && index != reference_index) {
-          distances[count] = row[column];
-          indices[count] = static_cast<std::uint16_t>(index);
-          ++count;
-        }
-      }
-    }
+// For each lane, how many classes have a least distance up to `limit`.
+HWY_INLINE hn::Vec<I16> count_within(const MatchScratch& scratch, int x, hn::Vec<I16> limit) {
+  const I16 d;
+  auto count = hn::Zero(d);
+  for (int i = 0; i < scratch.least.height(); ++i) {
+    const auto beyond = hn::Load(d, scratch.least.row(i) + x) > limit;
+    count = count + hn::IfThenZeroElse(beyond, hn::Set(d, 1));
   }
   return count;
 }
 
-// Keeps the `count` smallest (distance, index) of `candidates` as distance << 16 | index, sorted.
-void keep_nearest(MatchScratch& scratch, int candidates, int count, std::uint32_t* keys) {
-  std::uint16_t* distances = scratch.candidates.row(0);
-  const std::uint16_t* indices = scratch.candidates.row(1);
-  std::fill(distances + candidates, distances + candidates + kLanes, std::uint16_t{0xffff});
-  const int vectors = (candidates + kLanes - 1) / kLanes;
-  const std::uint16_t last = ranked(distances, vectors, count);
-  int kept = 0;
-  int ties = count;  // candidates at the last distance that are kept: those of the lowest indices
-  for (int i = 0; i < candidates; ++i) {
-    ties -= distances[i] < last;
-  }
-  for (int i = 0; i < candidates && kept < count; ++i) {
-    if (distances[i] < last || (distances[i] == last && ties-- > 0)) {
-      keys[kept++] = std::uint32_t{distances[i]} << 16 | indices[i];
+// For each lane a distance that at least `groups` classes do not exceed: classes are dealt out to
+// as many groups, whose smallest distances are these. kNoMatch where there are fewer.
+HWY_INLINE hn::Vec<I16> bound_of(const MatchScratch& scratch, int x, int groups) {
+  const I16 d;
+  auto bound = hn::Zero(d);
+  for (int group = 0; group < groups; ++group) {
+    auto least = hn::Set(d, kNoMatch);
+    for (int i = group; i < scratch.least.height(); i += groups) {
+      least = hn::Min(least, hn::Load(d, scratch.least.row(i) + x));
     }
+    bound = hn::Max(bound, least);
   }
-  std::sort(keys, keys + kept);
+  return bound;
 }
 
-void match_blocks(const MatchGuide& guide, BlockPosition reference, const SearchWindow& window,
-                  int count, MatchScratch& scratch, BlockPosition* group) {
-  group[0] = reference;
-  if (count == 1) {
-    return;
+// The largest power of two up to `largest_group` for which the lane has classes.
+void group_sizes(const MatchScratch& scratch, int x, int largest_group, std::int16_t* sizes) {
+  const I16 d;
+  hn::Store(count_within(scratch, x, hn::Set(d, kFarthest)), d, sizes);
+  std::transform(sizes, sizes + kLanes, sizes, [&](std::int16_t count) {
+    const auto most = static_cast<unsigned>(std::clamp<int>(count, 1, largest_group));
+    return static_cast<std::int16_t>(std::bit_floor(most));
+  });
+}
+
+// Lists for each lane the classes of the sizes[lane] least distances.
+void take_nearest(int x, int largest_group, const std::int16_t* sizes, MatchScratch& scratch) {
+  const I16 d;
+  const auto one = hn::Set(d, 1);
+  const auto wanted = hn::Load(d, sizes);
+  // Bisection: no more than `wanted` classes but too few lie within `low`, enough within `high`.
+  auto low = hn::Set(d, -1);
+  auto high = bound_of(scratch, x, largest_group);
+  auto ties = wanted;  // classes at `high` to be taken
+  while (!hn::AllFalse(d, high - low > one)) {
+    const auto middle = low + hn::ShiftRight<1>(high - low);
+    const auto count = count_within(scratch, x, middle);
+    const auto too_few = wanted > count;
+    low = hn::IfThenElse(too_few, middle, low);
+    ties = hn::IfThenElse(too_few, wanted - count, ties);
+    high = hn::IfThenElse(too_few, high, middle);
+    // Just enough: no need to go on.
+    const auto found = count == wanted;
+    low = hn::IfThenElse(found, middle, low);
+    ties = hn::IfThenElse(found, wanted, ties);
   }
-  window_distances(guide, reference, window, scratch.distances);
-  // The reference block is among those within the bound, hence `count` and not one less.
-  const std::uint16_t bound = bound_of(scratch.distances, window, count);
-  const int reference_index = (reference.y - window.y) * window.width + (reference.x - window.x);
-  const int candidates = collect(window, bound, reference_index, scratch);
-  std::uint32_t keys[kLargestGroup];
-  keep_nearest(scratch, candidates, count - 1, keys);
-  for (int i = 1; i < count; ++i) {
-    const auto index = static_cast<int>(keys[i - 1] & 0xffff);
-    group[i] = {window.x + index % window.width, window.y + index / window.width};
+  int counts[kLanes] = {};
+  for (int i = 0; i < scratch.least.height(); ++i) {
+    const auto distance = hn::Load(d, scratch.least.row(i) + x);
+    const auto tied = hn::And(distance == high, ties > hn::Zero(d));
+    ties = ties - hn::IfThenElseZero(tied, one);
+    std::uint64_t lanes = lanes_of(hn::Or(distance < high, tied));
+    for (; lanes != 0; lanes &= lanes - 1) {
+      const auto lane = static_cast<int>(hwy::Num0BitsBelowLS1Bit_Nonzero64(lanes));
+      scratch.taken(counts[lane]++, lane) = static_cast<std::int16_t>(i);
+    }
+  }
+}
+
+void match_row(const Search& search, int largest_group, MatchScratch& scratch,
+               std::span<BlockGroup> groups) {
+  find_nearest(search, scratch);
+  const int every = search.row.every;
+  for (int x = 0; x < search.lanes(); x += kLanes) {
+    HWY_ALIGN std::int16_t sizes[kLanes];
+    group_sizes(scratch, x, largest_group, sizes);
+    take_nearest(x, largest_group, sizes, scratch);
+    const int end = std::min(x + kLanes, search.lanes());
+    for (int column = rounded_up(x, every); column < end; column += every) {
+      const int lane = column - x;
+      BlockGroup& group = groups[static_cast<std::size_t>(column / every)];
+      group.size = sizes[lane];
+      for (int i = 0; i < group.size; ++i) {
+        const int nearest = scratch.nearest(column, scratch.taken(i, lane));
+        const auto& candidate = search.pattern.candidates()[static_cast<std::size_t>(nearest)];
+        group.blocks[i] = {search.row.x + kCellPx * column + candidate.dx,
+                           search.row.y + candidate.dy};
+      }
+    }
   }
 }
 
@@ -242,15 +302,77 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace thermedge::detail {
 
-MatchScratch::MatchScratch()
-    : distances(kLargestWindow + kLargestLanes, kLargestWindow),
-      candidates(kLargestWindow * kLargestWindow + kLargestLanes, 2) {}
+HWY_EXPORT(quantise_row);
+HWY_EXPORT(begin_pairs);
+HWY_EXPORT(match_row);
 
-HWY_EXPORT(match_blocks);
+SearchPattern::SearchPattern(int radius_px) : radius_px_(radius_px) {
+  constexpr int kDenseRadius = 6;
+  constexpr int kDenseClassPx = 2;
+  constexpr int kSparseClassPx = 4;
+  // Numbers of the classes, by their first displacement; dense ones and sparse ones may share it.
+  const int side = 2 * radius_px + 1;
+  std::vector<int> numbers(static_cast<std::size_t>(2 * side * side), -1);
+  for (int dy = -radius_px; dy <= radius_px; ++dy) {
+    row_begin_.push_back(static_cast<int>(candidates_.size()));
+    for (int dx = -radius_px; dx <= radius_px; ++dx) {
+      const bool dense = std::max(std::abs(dx), std::abs(dy)) <= kDenseRadius;
+      if (dx * dx + dy * dy > radius_px * radius_px || (!dense && (dx + dy) % 2 != 0)) {
+        continue;
+      }
+      const int class_px = dense ? kDenseClassPx : kSparseClassPx;
+      const int first_x = (dx + radius_px) / class_px * class_px;
+      const int first_y = (dy + radius_px) / class_px * class_px;
+      int& number =
+          numbers[static_cast<std::size_t>(2 * (first_y * side + first_x) + (dense ? 1 : 0))];
+      if (number < 0) {
+        number = classes_++;
+      }
+      candidates_.push_back({dx, dy, number});
+    }
+  }
+  row_begin_.push_back(static_cast<int>(candidates_.size()));
+}
 
-void match_blocks(const MatchGuide& guide, BlockPosition reference, const SearchWindow& window,
-                  int count, MatchScratch& scratch, BlockPosition* group) {
-  HWY_DYNAMIC_DISPATCH(match_blocks)(guide, reference, window, count, scratch, group);
+std::span<const SearchPattern::Candidate> SearchPattern::row(int dy) const {
+  return candidates().subspan(static_cast<std::size_t>(row_begin(dy)),
+                              static_cast<std::size_t>(row_begin(dy + 1) - row_begin(dy)));
+}
+
+int MatchGuide::readable_width(int width) { return rounded_up(width, kCellPx * kWidestLanes / 2); }
+
+void MatchGuide::resize(int width, int height, int radius_px) {
+  assert(width % kCellPx == 0 && height % kCellPx == 0);
+  width_ = width;
+  height_ = height;
+  margin_ = radius_px / kCellPx + 2;
+  phases_.resize(rounded_up(width / kCellPx, kWidestLanes) + 2 * margin_, height * kCellPx);
+}
+
+void MatchGuide::set_row(const float* values, int y) {
+  HWY_DYNAMIC_DISPATCH(quantise_row)
+  (values, width_ / kCellPx, phases_.row(y * kCellPx) + margin_, phases_.stride());
+}
+
+void MatchScratch::prepare(const SearchPattern& pattern, int cells_in_row) {
+  const int columns = rounded_up(cells_in_row + 1, kWidestLanes);  // and the cell right of them
+  cells.resize(columns, 2 * pattern.radius_px() + 1);
+  pairs.resize(columns, static_cast<int>(pattern.candidates().size()));
+  least.resize(columns, pattern.classes());
+  nearest.resize(columns, pattern.classes());
+  taken.resize(kLargestGroup, kWidestLanes);
+}
+
+void match_row(const MatchGuide& guide, const SearchPattern& pattern, const ReferenceRow& row,
+               int largest_group, MatchScratch& scratch, std::span<BlockGroup> groups) {
+  const Search search{guide, pattern, row};
+  scratch.prepare(pattern, search.lanes());
+  const ReferenceRow& before = scratch.pairs_row;
+  if (before.count == 0 || before.y + kCellPx != row.y || before.x != row.x) {
+    HWY_DYNAMIC_DISPATCH(begin_pairs)(search, scratch);
+  }
+  scratch.pairs_row = row;
+  HWY_DYNAMIC_DISPATCH(match_row)(search, largest_group, scratch, groups);
 }
 
 }  // namespace thermedge::detail

@@ -1,13 +1,17 @@
-// Block matching for BM3D.
+// Block matching for BM3D: all reference blocks of a row at once.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <span>
+#include <vector>
 
 #include "thermedge/image.hpp"
 
 namespace thermedge::detail {
 
 inline constexpr int kBlockPx = 8;               // side of a block
+inline constexpr int kCellPx = 4;                // a block is 2 x 2 cells
 inline constexpr int kLargestGroup = 32;         // blocks
 inline constexpr int kLargestSearchRadius = 32;  // px
 
@@ -18,33 +22,103 @@ struct BlockPosition {
   friend bool operator==(const BlockPosition&, const BlockPosition&) = default;
 };
 
-// The blocks among which matches are sought: top left corners in [x, x + width) x [y, y + height).
-struct SearchWindow {
+// A reference block and those most like it; `size` is a power of two.
+struct BlockGroup {
+  [[nodiscard]] std::span<const BlockPosition> view() const {
+    return {blocks, static_cast<std::size_t>(size)};
+  }
+  int size = 0;
+  BlockPosition blocks[kLargestGroup];
+};
+
+// Where matches are sought around a reference block: the displacements within a disc, near by all
+// of them and farther off every other one. They are sorted into classes of neighbours. Of a class
+// only the best match joins the group: blocks that overlap almost wholly have almost the same
+// noise, so a second one adds little.
+class SearchPattern {
+ public:
+  struct Candidate {
+    int dx = 0;
+    int dy = 0;
+    int neighbours = 0;  // number of its class
+  };
+
+  explicit SearchPattern(int radius_px);
+
+  [[nodiscard]] int radius_px() const { return radius_px_; }
+  [[nodiscard]] int classes() const { return classes_; }
+  // By dy, then by dx; those of a class and a dy follow each other.
+  [[nodiscard]] std::span<const Candidate> candidates() const { return candidates_; }
+  [[nodiscard]] std::span<const Candidate> row(int dy) const;
+  [[nodiscard]] int row_begin(int dy) const {
+    return row_begin_[static_cast<std::size_t>(dy + radius_px_)];
+  }
+
+ private:
+  int radius_px_;
+  int classes_ = 0;
+  std::vector<Candidate> candidates_;
+  std::vector<int> row_begin_;  // for each dy, and the end
+};
+
+// What blocks are compared on: a frame as integers of a fraction of its noise, modulo 2^16 (small
+// differences stay right where the frame has a huge range).
+class MatchGuide {
+ public:
+  // For frames of this size, multiples of kCellPx and at least a block, and displacements of up to
+  // `radius_px`.
+  void resize(int width, int height, int radius_px);
+
+  // Quantises row `y`. `values` are in units of the noise, readable up to readable_width().
+  void set_row(const float* values, int y);
+
+  [[nodiscard]] static int readable_width(int width);
+  [[nodiscard]] int width() const { return width_; }
+  [[nodiscard]] int height() const { return height_; }
+
+  // Row y * kCellPx + p, column margin() + X: pixel (kCellPx * X + p, y), so that neighbouring
+  // reference blocks are neighbours here. Columns outside the frame hold anything.
+  [[nodiscard]] ImageView<const std::int16_t> phases() const { return phases_; }
+  [[nodiscard]] int margin() const { return margin_; }
+
+ private:
+  int width_ = 0;
+  int height_ = 0;
+  int margin_ = 0;
+  Image<std::int16_t> phases_;
+};
+
+// Reference blocks at x + every * kCellPx * i, i < count, all in row y.
+struct ReferenceRow {
   int x = 0;
   int y = 0;
-  int width = 1;
-  int height = 1;
+  int count = 0;
+  int every = 1;
 };
 
-// Scratch memory of match_blocks; one for each task that runs at a time.
+// Scratch memory of match_row; one for each task that runs at a time. Columns are reference blocks.
 struct MatchScratch {
-  MatchScratch();
-  Image<std::uint16_t> distances;   // of the blocks of the window
-  Image<std::uint16_t> candidates;  // row 0: distances, row 1: indices of blocks near enough
+  // For rows that reach over so many cells; match_row does it otherwise.
+  void prepare(const SearchPattern& pattern, int cells_in_row);
+
+  Image<std::uint16_t> cells;   // a row for each candidate of one dy: sums over cells
+  Image<std::uint16_t> pairs;   // a row for each candidate: sums over the lower halves of blocks
+  Image<std::int16_t> least;    // a row for each class: its least distance
+  Image<std::int16_t> nearest;  // and the number of the candidate that has it
+  Image<std::int16_t> taken;    // a row for each lane of a vector: the classes taken
+  ReferenceRow pairs_row;       // what `pairs` belongs to; count 0: nothing
 };
 
-// What blocks are compared on: integers, and the same transposed.
-struct MatchGuide {
-  ImageView<const std::int16_t> levels;
-  ImageView<const std::int16_t> transposed;
-};
-
-// Finds the `count` blocks of the window that are most like the one at `reference`, which lies in
-// the window and is always the first of `group`. The others follow by (distance, index), smallest
-// first; the index numbers the window row by row. The distance is the sum of squared differences of
-// levels (modulo 2^16, a difference counting at most 255), at most 65535.
-// 1 <= count <= min(kLargestGroup, window.width * window.height).
-void match_blocks(const MatchGuide& guide, BlockPosition reference, const SearchWindow& window,
-                  int count, MatchScratch& scratch, BlockPosition* group);
+// For each reference block of the row the group of the blocks in the frame that are most like it;
+// group i is that of the i-th. Its size is the largest power of two up to `largest_group` for which
+// there are classes. The distance is the sum of absolute differences of levels plus 1, at most
+// 32765; that of the reference block to itself is 0. Within a class and between classes the first
+// of equals wins; the group is sorted by class.
+//
+// Sums are taken over cells. Those of the lower cells serve again as upper ones if the next call
+// with this scratch is for the row kCellPx below; forget them (pairs_row = {}) when the guide
+// changes.
+void match_row(const MatchGuide& guide, const SearchPattern& pattern, const ReferenceRow& row,
+               int largest_group, MatchScratch& scratch, std::span<BlockGroup> groups);
 
 }  // namespace thermedge::detail

@@ -5,6 +5,9 @@
 #include <array>
 #include <cmath>
 #include <random>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "reference/bm3d_reference.hpp"
 #include "simd/bm3d_group.hpp"
@@ -16,7 +19,6 @@ namespace {
 
 using detail::BlockPosition;
 using detail::BlockTransform;
-using detail::SearchWindow;
 using test::BlockValues;
 using test::Matrix;
 
@@ -71,68 +73,108 @@ TEST(Bm3dTransformTest, DctKeepsEnergy) {
   EXPECT_NEAR(after / before, 1, 1e-6);
 }
 
-Image<std::int16_t> random_levels(int width, int height, double sigma) {
-  std::mt19937 random(3);
-  std::normal_distribution<double> normal(0, sigma);
-  Image<std::int16_t> levels(width, height);
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      levels(x, y) = static_cast<std::int16_t>(std::lrint(normal(random)));
-    }
-  }
-  return levels;
-}
-
-Image<std::int16_t> transposed(const Image<std::int16_t>& image) {
-  Image<std::int16_t> out(image.height(), image.width());
-  for (int y = 0; y < image.height(); ++y) {
-    for (int x = 0; x < image.width(); ++x) {
-      out(y, x) = image(x, y);
-    }
-  }
-  return out;
-}
-
-// Few levels make ties, many make sums that stop at 65535 and differences that wrap.
-TEST(Bm3dMatchTest, FindsTheNearestBlocksInOrder) {
-  detail::MatchScratch scratch;
-  for (const double sigma : {0.0, 0.3, 4.0, 60.0, 9000.0}) {
-    const Image<std::int16_t> levels = random_levels(80, 77, sigma);
-    const Image<std::int16_t> other = transposed(levels);
-    test::for_each_simd_target([&](const std::string&) {
-      for (const int width : {1, 2, 3, 7, 8, 9, 15, 17, 31, 32, 33, 36, 37, 65}) {
-        for (const int height : {1, 2, 5, 9, 33, 65}) {
-          // To the last block of the picture, so that loads past its columns would show.
-          const SearchWindow window = {73 - width, 70 - height, width, height};
-          const BlockPosition reference = {window.x + width * 2 / 3, window.y + height / 2};
-          for (int count = 1; count <= std::min(32, width * height); count = count * 3 / 2 + 1) {
-            std::array<BlockPosition, detail::kLargestGroup> group;
-            detail::match_blocks({levels, other}, reference, window, count, scratch, group.data());
-            const auto expected = test::matches(levels, reference, window, count);
-            ASSERT_TRUE(std::equal(expected.begin(), expected.end(), group.begin()))
-                << width << " x " << height << ", " << count << ", sigma " << sigma;
-          }
-        }
+struct Guide {
+  Guide(int width, int height, double levels_sigma, int radius)
+      : levels(width, height), values(detail::MatchGuide::readable_width(width), height) {
+    std::mt19937 random(3);
+    std::normal_distribution<double> normal(0, levels_sigma);
+    guide.resize(width, height, radius);
+    for (int y = 0; y < height; ++y) {
+      for (int x = 0; x < width; ++x) {
+        levels(x, y) = static_cast<std::int16_t>(std::lrint(normal(random)));
+        values(x, y) = 0.25F * levels(x, y);
       }
-    });
+    }
+    set();
+  }
+  // Anew for each SIMD target.
+  void set() {
+    for (int y = 0; y < values.height(); ++y) {
+      guide.set_row(values.row(y), y);
+    }
+  }
+  Image<std::int16_t> levels;
+  Image<float> values;
+  detail::MatchGuide guide;
+};
+
+std::vector<BlockPosition> positions(const detail::BlockGroup& group) {
+  return {group.view().begin(), group.view().end()};
+}
+
+// Few levels make ties, many make sums at the largest distance and differences that wrap.
+TEST(Bm3dMatchTest, FindsTheNearestBlocksOfEachRow) {
+  for (const auto& [width, height] : {std::pair{8, 8}, {12, 44}, {96, 12}, {140, 28}, {156, 24}}) {
+    for (const int radius : {4, 7, 16, 32}) {
+      const detail::SearchPattern pattern(radius);
+      for (const double sigma : {0.0, 0.3, 4.0, 60.0, 9000.0}) {
+        SCOPED_TRACE(std::to_string(width) + " x " + std::to_string(height) + ", radius " +
+                     std::to_string(radius) + ", sigma " + std::to_string(sigma));
+        Guide guide(width, height, sigma, radius);
+        test::for_each_simd_target([&](const std::string&) {
+          guide.set();
+          detail::MatchScratch scratch;
+          std::vector<detail::BlockGroup> groups(static_cast<std::size_t>(width / 4));
+          for (int y = 0; y <= height - 8; y += 4) {
+            const int largest = 1 << (y / 4 % 6);
+            detail::ReferenceRow row;
+            row.y = y;
+            row.count = (width - 8) / 4 + 1;
+            detail::match_row(guide.guide, pattern, row, largest, scratch, groups);
+            for (int i = 0; i < row.count; i += i < 2 ? 1 : 3) {
+              ASSERT_EQ(positions(groups[static_cast<std::size_t>(i)]),
+                        test::matches(guide.levels, {4 * i, y}, radius, largest))
+                  << "block " << i << " of row " << y;
+            }
+          }
+        });
+      }
+    }
   }
 }
 
-// A single pixel that differs by 253 to 260 levels: those of 255 and more tie.
-TEST(Bm3dMatchTest, LetsNoPixelCountMoreThan255Levels) {
-  Image<std::int16_t> levels(8 * 9, 8);
-  fill_pixels(levels.view(), std::int16_t{100});
-  for (int block = 1; block < 9; ++block) {
-    levels(8 * block + 3, 5) = static_cast<std::int16_t>(100 + 261 - block);
-  }
-  const Image<std::int16_t> other = transposed(levels);
-  const SearchWindow window = {0, 0, 8 * 8 + 1, 1};
+// Rows that neither follow each other nor begin at a whole cell, and blocks farther apart.
+TEST(Bm3dMatchTest, FindsThemForAnyRow) {
+  Guide guide(180, 40, 6, 12);
+  const detail::SearchPattern pattern(12);
   detail::MatchScratch scratch;
+  std::vector<detail::BlockGroup> groups(45);
+  for (const detail::ReferenceRow row : {detail::ReferenceRow{1, 3, 40, 1},
+                                         {2, 7, 43, 1},
+                                         {2, 11, 43, 1},
+                                         {4, 31, 21, 2},
+                                         {3, 32, 15, 3},
+                                         {172, 0, 1, 1}}) {
+    detail::match_row(guide.guide, pattern, row, 16, scratch, groups);
+    for (int i = 0; i < row.count; ++i) {
+      ASSERT_EQ(positions(groups[static_cast<std::size_t>(i)]),
+                test::matches(guide.levels, {row.x + 4 * row.every * i, row.y}, 12, 16))
+          << "block " << i << " of row " << row.y;
+    }
+  }
+}
+
+// Values far beyond what 16 bits hold, and half levels.
+TEST(Bm3dMatchTest, QuantisesModulo65536ToTheNearestLevel) {
+  Image<float> values(detail::MatchGuide::readable_width(8), 8);
+  fill_pixels(values.view(), 0.0F);
+  values(0, 3) = 16384.0F + 0.25F;     // 65536 + 1 levels
+  values(1, 3) = -1e6F;                // -4000000 levels
+  values(2, 3) = 3e9F;                 // any, but no crash
+  values(3, 3) = 0.2F;                 // 0.8 levels
+  values(4, 3) = -0.2F;
   test::for_each_simd_target([&](const std::string&) {
-    std::array<BlockPosition, detail::kLargestGroup> group;
-    detail::match_blocks({levels, other}, {0, 0}, window, 32, scratch, group.data());
-    const auto expected = test::matches(levels, {0, 0}, window, 32);
-    ASSERT_TRUE(std::equal(expected.begin(), expected.end(), group.begin()));
+    detail::MatchGuide guide;
+    guide.resize(8, 8, 16);
+    for (int y = 0; y < 8; ++y) {
+      guide.set_row(values.row(y), y);
+    }
+    const auto level = [&](int x) { return guide.phases()(guide.margin() + x / 4, 12 + x % 4); };
+    EXPECT_EQ(level(0), 1);
+    EXPECT_EQ(level(1), static_cast<std::int16_t>(-4000000 & 0xffff));
+    EXPECT_EQ(level(3), 1);
+    EXPECT_EQ(level(4), -1);
+    EXPECT_EQ(level(5), 0);
   });
 }
 

@@ -7,7 +7,9 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
+#include <map>
 #include <numbers>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -18,7 +20,6 @@
 namespace thermedge::test {
 
 using detail::BlockPosition;
-using detail::SearchWindow;
 
 inline constexpr int kSide = detail::kBlockPx;
 using Matrix = std::array<std::array<double, kSide>, kSide>;
@@ -119,38 +120,81 @@ inline int block_distance(ImageView<const std::int16_t> levels, BlockPosition a,
     for (int x = 0; x < kSide; ++x) {
       const auto wrapped =
           static_cast<std::int16_t>(levels(a.x + x, a.y + y) - levels(b.x + x, b.y + y));
-      const int difference = std::min(std::abs(int{wrapped}), 255);
-      sum += difference * difference;
+      sum += std::abs(int{wrapped});
     }
   }
-  return std::min(sum, 65535);
+  return std::min(sum + 1, 32765);
 }
 
-inline std::vector<BlockPosition> matches(ImageView<const std::int16_t> levels,
-                                          BlockPosition reference, const SearchWindow& window,
-                                          int count) {
-  std::vector<std::pair<int, int>> order;  // distance, index
-  for (int i = 0; i < window.width * window.height; ++i) {
-    const BlockPosition candidate = {window.x + i % window.width, window.y + i / window.width};
-    order.emplace_back(candidate == reference ? -1 : block_distance(levels, reference, candidate),
-                       i);
+// Displacements near by are sorted into squares of 2 x 2, the others, every other one of them, into
+// squares of 4 x 4; a class is known by its size and the indices of its square.
+using NeighbourClass = std::array<int, 3>;
+inline std::optional<NeighbourClass> class_of(int dx, int dy, int radius) {
+  const bool dense = std::abs(dx) <= 6 && std::abs(dy) <= 6;
+  if (std::hypot(dx, dy) > radius || (!dense && (dx + dy) % 2 != 0)) {
+    return {};
   }
-  std::sort(order.begin(), order.end());
+  const int side = dense ? 2 : 4;
+  return NeighbourClass{side, (dy + radius) / side, (dx + radius) / side};
+}
+
+// The group of `reference`, by the order in which its classes come up row by row.
+inline std::vector<BlockPosition> matches(ImageView<const std::int16_t> levels,
+                                          BlockPosition reference, int radius, int largest) {
+  struct Match {
+    int distance = 0;
+    int order = 0;  // of the class
+    BlockPosition block;
+  };
+  std::map<NeighbourClass, int> orders;
+  std::map<NeighbourClass, Match> best;
+  for (int dy = -radius; dy <= radius; ++dy) {
+    for (int dx = -radius; dx <= radius; ++dx) {
+      const auto neighbours = class_of(dx, dy, radius);
+      if (!neighbours) {
+        continue;
+      }
+      const int order = orders.try_emplace(*neighbours, orders.size()).first->second;
+      const BlockPosition block = {reference.x + dx, reference.y + dy};
+      if (block.x < 0 || block.y < 0 || block.x > levels.width() - kSide ||
+          block.y > levels.height() - kSide) {
+        continue;
+      }
+      const int distance = block == reference ? 0 : block_distance(levels, reference, block);
+      const auto [at, added] = best.try_emplace(*neighbours, Match{distance, order, block});
+      if (!added && distance < at->second.distance) {
+        at->second = {distance, order, block};
+      }
+    }
+  }
+  std::vector<Match> found;
+  for (const auto& [neighbours, match] : best) {
+    found.push_back(match);
+  }
+  const auto by_order = [](const Match& a, const Match& b) { return a.order < b.order; };
+  std::sort(found.begin(), found.end(), by_order);
+  std::stable_sort(found.begin(), found.end(),
+                   [](const Match& a, const Match& b) { return a.distance < b.distance; });
+  found.resize(std::bit_floor(std::min(found.size(), static_cast<std::size_t>(largest))));
+  std::sort(found.begin(), found.end(), by_order);
   std::vector<BlockPosition> group;
-  for (int i = 0; i < count; ++i) {
-    const int index = order[static_cast<std::size_t>(i)].second;
-    group.push_back({window.x + index % window.width, window.y + index / window.width});
+  for (const Match& match : found) {
+    group.push_back(match.block);
   }
   return group;
 }
 
 using Group = std::vector<BlockPosition>;
 
-// BM3D written down plainly: one group after the other, all in double precision.
+// BM3D written down plainly: one group after the other, all in double precision. The frame must be
+// one that reference blocks cover: 8 px and steps, at least whole cells of 4.
 class ReferenceBm3d {
  public:
   ReferenceBm3d(const Image<double>& noisy, const Bm3dOptions& options)
-      : noisy_(noisy), options_(options), width_(noisy.width()), height_(noisy.height()) {}
+      : noisy_(noisy),
+        options_(resolved(options)),
+        width_(noisy.width()),
+        height_(noisy.height()) {}
 
   Image<double> run() {
     Image<double> estimate = run_stage(noisy_, false);
@@ -159,15 +203,6 @@ class ReferenceBm3d {
 
  private:
   using Spectra = std::vector<BlockValues>;
-
-  static std::vector<int> reference_positions(int side, int step) {
-    std::vector<int> positions;
-    for (int i = 0; i < side - kSide; i += step) {
-      positions.push_back(i);
-    }
-    positions.push_back(side - kSide);
-    return positions;
-  }
 
   Image<double> run_stage(const Image<double>& guide, bool wiener) {
     Image<std::int16_t> levels(width_, height_);
@@ -180,10 +215,11 @@ class ReferenceBm3d {
     weights_.resize(width_, height_);
     fill_pixels(sums_.view(), 0.0);
     fill_pixels(weights_.view(), 0.0);
-    for (const int y : reference_positions(height_, options_.step_px)) {
-      for (const int x : reference_positions(width_, options_.step_px)) {
+    for (int y = 0; y <= height_ - kSide; y += options_.step_px) {
+      for (int x = 0; x <= width_ - kSide; x += options_.step_px) {
         const Group group =
-            group_of(levels, {x, y}, wiener ? options_.group_wiener : options_.group_hard);
+            matches(levels, {x, y}, options_.search_radius_px,
+                    wiener ? options_.group_wiener : options_.group_hard);
         wiener ? filter_wiener(guide, group) : filter_hard(group);
       }
     }
@@ -194,23 +230,6 @@ class ReferenceBm3d {
       }
     }
     return out;
-  }
-
-  Group group_of(const Image<std::int16_t>& levels, BlockPosition reference, int largest) const {
-    const int side = 2 * options_.search_radius_px + 1;
-    const auto [x, width] = span(reference.x, width_ - kSide + 1, side);
-    const auto [y, height] = span(reference.y, height_ - kSide + 1, side);
-    int count = 1;
-    while (2 * count <= std::min(largest, width * height)) {
-      count *= 2;
-    }
-    return matches(levels, reference, {x, y, width, height}, count);
-  }
-
-  // The window of `side` places around `at`, shifted into [0, places).
-  std::pair<int, int> span(int at, int places, int side) const {
-    const int size = std::min(side, places);
-    return {std::clamp(at - options_.search_radius_px, 0, places - size), size};
   }
 
   static Spectra spectra_of(const Image<double>& image, const Group& group, const Matrix& m) {

@@ -45,13 +45,17 @@ Image<float> denoised(const DenoiseOptions& options, ImageView<const float> in, 
   return out;
 }
 
-TEST(DenoiseTest, NoneAndSigmaZeroCopy) {
+TEST(DenoiseTest, NoneAndMeasuredSigmaZeroCopy) {
   const auto runner = make_runner(1);
   const Image<float> in = scene(31, 17, 5);
   EXPECT_TRUE(
       test::same_pixels<float>(denoised(options_for(DenoiseMethod::kNone), in, 5, *runner), in));
   for (const DenoiseMethod method : kNoiseMethods) {
-    EXPECT_TRUE(test::same_pixels<float>(denoised(options_for(method), in, 0, *runner), in));
+    Image<float> out(in.width(), in.height());
+    ASSERT_TRUE(Denoiser(options_for(method)).run_measured(in, 0, out, *runner));
+    EXPECT_TRUE(test::same_pixels<float>(out, in));
+    ASSERT_TRUE(Denoiser(options_for(method)).run_measured(in, 5, out, *runner));
+    EXPECT_TRUE(test::same_pixels<float>(out, denoised(options_for(method), in, 5, *runner)));
     EXPECT_TRUE(test::same_pixels<float>(denoised(options_for(method), in, 1e-300, *runner), in));
   }
 }
@@ -74,7 +78,7 @@ TEST(DenoiseTest, ErrorsNameWhatIsWrong) {
     EXPECT_EQ(message(options_for(method)), "none");
   }
   for (const DenoiseMethod method : kNoiseMethods) {
-    for (const double sigma : {-1.0, std::nan(""), HUGE_VAL}) {
+    for (const double sigma : {0.0, -1.0, std::nan(""), HUGE_VAL}) {
       EXPECT_TRUE(has(message(options_for(method), sigma), "sigma"));
     }
   }
@@ -90,6 +94,16 @@ TEST(DenoiseTest, ErrorsNameWhatIsWrong) {
   options = {};
   options.bm3d.group_wiener = 64;
   EXPECT_TRUE(has(message(options), "denoise.bm3d.group_wiener = 64"));
+  for (const int step : {3, 7, 16}) {
+    options = {};
+    options.bm3d.step_px = step;
+    EXPECT_TRUE(has(message(options), "denoise.bm3d.step_px = " + std::to_string(step)));
+  }
+  for (const int radius : {3, -1, 33}) {
+    options = {};
+    options.bm3d.search_radius_px = radius;
+    EXPECT_TRUE(has(message(options), "denoise.bm3d.search_radius_px = " + std::to_string(radius)));
+  }
   options = {};
   options.bm3d.lambda = std::nan("");
   EXPECT_TRUE(has(message(options), "denoise.bm3d.lambda"));
@@ -102,14 +116,19 @@ TEST(DenoiseTest, ErrorsNameWhatIsWrong) {
   Denoiser denoiser(DenoiseOptions{});
   EXPECT_FALSE(denoiser.run(image, 5, other, *runner));
   EXPECT_FALSE(denoiser.run(ImageView<const float>{}, 5, ImageView<float>{}, *runner));
+  const Status small = denoiser.run(image.view().crop(0, 0, 7, 8), 5, image.view().crop(0, 0, 7, 8),
+                                    *runner);
+  ASSERT_FALSE(small);
+  EXPECT_EQ(small.error().message, "frame of 7 x 8 pixels: bm3d needs 8 x 8 or more");
 }
 
 TEST(DenoiseTest, EverySmallSizeWorksInPlaceAndStaysInside) {
   const auto runner = make_runner(1);
   for (const DenoiseMethod method : kMethods) {
     Denoiser denoiser(options_for(method));
-    for (int height = 1; height <= 20; ++height) {
-      for (int width = 1; width <= 20; ++width) {
+    const int least = method == DenoiseMethod::kBm3d ? 8 : 1;
+    for (int height = least; height <= 20; ++height) {
+      for (int width = least; width <= 20; ++width) {
         const Image<float> in = scene(width, height, 5);
         test::GuardedImage<float> separate(width, height);
         test::GuardedImage<float> in_place(width, height);
@@ -132,11 +151,11 @@ TEST(DenoiseTest, SameBitsOnEveryTargetAndRunner) {
   DenoiseOptions gaussian = options_for(DenoiseMethod::kGaussian);
   gaussian.gaussian.sigma_px = 1.7;
   DenoiseOptions bm3d = options_for(DenoiseMethod::kBm3d);
-  bm3d.bm3d.step_px = 2;  // more bands
+  bm3d.bm3d.profile = Bm3dProfile::kQuality;
   DenoiseOptions narrow = options_for(DenoiseMethod::kBm3d);
   narrow.bm3d.search_radius_px = 5;
   narrow.bm3d.group_wiener = 8;
-  const Image<float> in = scene(45, 70, 5);
+  const Image<float> in = scene(145, 130, 5);  // more than a vector and a band
   for (const DenoiseOptions& options : {options_for(DenoiseMethod::kGaussian), gaussian,
                                         options_for(DenoiseMethod::kNlm), bm3d, narrow}) {
     const Image<float> expected = denoised(options, in, 5, *make_runner(1));
@@ -153,7 +172,7 @@ TEST(DenoiseTest, OneObjectServesChangingSizes) {
   const auto runner = make_runner(1);
   for (const DenoiseMethod method : kMethods) {
     Denoiser denoiser(options_for(method));
-    for (const auto& [width, height] : {std::pair{60, 50}, {9, 3}, {33, 64}, {60, 50}}) {
+    for (const auto& [width, height] : {std::pair{60, 50}, {9, 8}, {33, 64}, {60, 50}}) {
       const Image<float> in = scene(width, height, 5);
       Image<float> out(width, height);
       ASSERT_TRUE(denoiser.run(in, 5, out, *runner));
@@ -284,7 +303,7 @@ TEST(DenoiseTest, Bm3dReachesTheReferenceImplementation) {
   const auto runner = make_runner(2);
   for (const Quality& quality : kQuality) {
     const double psnr = mean_psnr(options_for(DenoiseMethod::kBm3d), quality.sigma, *runner);
-    EXPECT_GT(psnr, quality.bm3d_db - 0.06) << "sigma " << quality.sigma;
+    EXPECT_GT(psnr, quality.bm3d_db - 0.10) << "sigma " << quality.sigma;
   }
 }
 
