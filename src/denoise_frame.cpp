@@ -1,13 +1,29 @@
 #include "denoise_frame.hpp"
 
 #include <algorithm>
-#include <bit>
+#include <array>
 #include <cmath>
-#include <cstdint>
+#include <cstddef>
 #include <limits>
+#include <numeric>
 #include <string>
 
+#include "simd/extent.hpp"
+
 namespace thermedge::detail {
+namespace {
+
+// Continues out[margin ... margin + width) to both sides.
+void mirror_sides(int width, int margin, int out_width, float* out) {
+  for (int i = 0; i < margin; ++i) {
+    out[i] = out[margin + mirrored(i - margin, width)];
+  }
+  for (int i = margin + width; i < out_width; ++i) {
+    out[i] = out[margin + mirrored(i - margin, width)];
+  }
+}
+
+}  // namespace
 
 float NoiseUnits::to_counts(float value) const {
   constexpr double kLargest = std::numeric_limits<float>::max();
@@ -17,12 +33,7 @@ float NoiseUnits::to_counts(float value) const {
 Status check_finite(ImageView<const float> frame) {
   for (int y = 0; y < frame.height(); ++y) {
     const float* row = frame.row(y);
-    // On the bits: a loop that the compiler can turn into vector code.
-    std::uint32_t exponents_full = 0;
-    for (int x = 0; x < frame.width(); ++x) {
-      exponents_full |= (std::bit_cast<std::uint32_t>(row[x]) & 0x7fffffffU) >= 0x7f800000U;
-    }
-    if (exponents_full != 0) {
+    if (!extent_of(row, frame.width()).finite) {
       const auto* bad =
           std::find_if(row, row + frame.width(), [](float v) { return !std::isfinite(v); });
       return failure(ErrorCode::kInvalidArgument,
@@ -34,34 +45,44 @@ Status check_finite(ImageView<const float> frame) {
 }
 
 FrameRange frame_range(ImageView<const float> frame) {
-  double sum = 0;
+  // Sums side by side: no addition waits for the one before it.
+  constexpr std::size_t kSums = 8;
+  std::array<double, kSums> sums{};
   float low = frame(0, 0);
   float high = low;
   for (int y = 0; y < frame.height(); ++y) {
     const float* row = frame.row(y);
-    for (int x = 0; x < frame.width(); ++x) {
-      sum += row[x];
-      low = std::min(low, row[x]);
-      high = std::max(high, row[x]);
+    const Extent extent = extent_of(row, frame.width());
+    low = std::min(low, extent.low);
+    high = std::max(high, extent.high);
+    const auto width = static_cast<std::size_t>(frame.width());
+    std::size_t x = 0;
+    for (; x + kSums <= width; x += kSums) {
+      for (std::size_t i = 0; i < kSums; ++i) {
+        sums[i] += row[x + i];
+      }
+    }
+    for (; x < width; ++x) {
+      sums[0] += row[x];
     }
   }
-  const double mean = sum / static_cast<double>(frame.size());
+  const double mean =
+      std::accumulate(sums.begin(), sums.end(), 0.0) / static_cast<double>(frame.size());
   return {mean, std::max(high - mean, mean - low)};
+}
+
+void mirrored_row(ImageView<const float> frame, int y, int margin, int out_width, float* out) {
+  const float* row = frame.row(mirrored(y, frame.height()));
+  std::copy_n(row, frame.width(), out + margin);
+  mirror_sides(frame.width(), margin, out_width, out);
 }
 
 void mirrored_row(ImageView<const float> frame, const NoiseUnits& units, int y, int margin,
                   int out_width, float* out) {
-  const int width = frame.width();
   const float* row = frame.row(mirrored(y, frame.height()));
-  for (int i = 0; i < width; ++i) {
-    out[margin + i] = units.from_counts(row[i]);
-  }
-  for (int i = 0; i < margin; ++i) {
-    out[i] = out[margin + mirrored(i - margin, width)];
-  }
-  for (int i = margin + width; i < out_width; ++i) {
-    out[i] = out[margin + mirrored(i - margin, width)];
-  }
+  std::transform(row, row + frame.width(), out + margin,
+                 [&](float counts) { return units.from_counts(counts); });
+  mirror_sides(frame.width(), margin, out_width, out);
 }
 
 }  // namespace thermedge::detail

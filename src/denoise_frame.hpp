@@ -35,8 +35,11 @@ struct FrameRange {
 };
 [[nodiscard]] FrameRange frame_range(ImageView<const float> frame);
 
-// Row `y` of `frame` in `units`, continued to both sides by mirroring: out[i] is pixel i - margin,
-// for 0 <= i < out_width. `y` may lie outside the frame.
+// Row `y` of `frame`, continued to both sides by mirroring: out[i] is pixel i - margin, for
+// 0 <= i < out_width. `y` may lie outside the frame.
+void mirrored_row(ImageView<const float> frame, int y, int margin, int out_width, float* out);
+
+// The same in `units`.
 void mirrored_row(ImageView<const float> frame, const NoiseUnits& units, int y, int margin,
                   int out_width, float* out);
 

@@ -11,6 +11,7 @@ namespace thermedge::detail {
 namespace {
 
 constexpr int kRowsPerTask = 16;
+constexpr int kScratchRows = 3;  // of a task
 
 }  // namespace
 
@@ -32,15 +33,15 @@ void GaussianFilter::make_weights() {
   }
 }
 
-void GaussianFilter::filter_row(int y, float* columns, float* result) const {
+void GaussianFilter::filter_row(int y, float* scratch, float* more_scratch, float* result) const {
   const int reach = radius();
   const int width = padded_.width() - 2 * reach;
   const float* centre = padded_.row(y + reach);
   if (options_.sigma_px == 0) {
-    return paper_kernel_row(centre + reach, padded_.stride(), width, result);
+    return paper_kernel_row(centre + reach, padded_.stride(), width, scratch, more_scratch, result);
   }
-  smooth_row(centre, padded_.stride(), weights_.data(), reach, padded_.width(), columns);
-  smooth_row(columns + reach, 1, weights_.data(), reach, width, result);
+  smooth_row(centre, padded_.stride(), weights_.data(), reach, padded_.width(), scratch);
+  smooth_row(scratch + reach, 1, weights_.data(), reach, width, result);
 }
 
 void GaussianFilter::run(ImageView<const float> in, ImageView<float> out, Runner& runner) {
@@ -50,16 +51,19 @@ void GaussianFilter::run(ImageView<const float> in, ImageView<float> out, Runner
   const int reach = radius();
   const int tasks = (in.height() + kRowsPerTask - 1) / kRowsPerTask;
   padded_.resize(in.width() + 2 * reach, in.height() + 2 * reach);
-  rows_.resize(padded_.width(), 2 * tasks);
+  rows_.resize(padded_.width(), kScratchRows * tasks);
   for (int y = 0; y < padded_.height(); ++y) {
-    mirrored_row(in, {}, y - reach, reach, padded_.width(), padded_.row(y));
+    mirrored_row(in, y - reach, reach, padded_.width(), padded_.row(y));
   }
   runner.run(tasks, [&](int task) {
     const int end = std::min((task + 1) * kRowsPerTask, out.height());
     for (int y = task * kRowsPerTask; y < end; ++y) {
-      float* result = rows_.row(2 * task + 1);
-      filter_row(y, rows_.row(2 * task), result);
-      std::copy_n(result, out.width(), out.row(y));
+      const bool is_short = out.width() < kGaussianSlack;
+      float* result = is_short ? rows_.row(kScratchRows * task + 2) : out.row(y);
+      filter_row(y, rows_.row(kScratchRows * task), rows_.row(kScratchRows * task + 1), result);
+      if (is_short) {
+        std::copy_n(result, out.width(), out.row(y));
+      }
     }
   });
 }

@@ -17,12 +17,12 @@ class GaussianFilter {
  private:
   [[nodiscard]] int radius() const;
   void make_weights();
-  void filter_row(int y, float* columns, float* result) const;
+  void filter_row(int y, float* scratch, float* more_scratch, float* result) const;
 
   GaussianOptions options_;
   std::vector<float> weights_;  // of the distances 0, 1, 2 ...; their sum over both sides is 1
   Image<float> padded_;         // the frame with mirrored margins of the kernel's radius
-  Image<float> rows_;           // two rows of scratch for each task
+  Image<float> rows_;           // scratch of the tasks
 };
 
 }  // namespace thermedge::detail

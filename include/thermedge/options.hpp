@@ -105,7 +105,7 @@ void visit_options(O& o, V&& v) {
 template <OptionsOf<NlmOptions> O, class V>
 void visit_options(O& o, V&& v) {
   v("patch_px", o.patch_px, Bounds{1, 15}, "side of the compared patches, odd, px");
-  v("search_px", o.search_px, Bounds{1, 41}, "side of the search window, odd, px");
+  v("search_px", o.search_px, Bounds{1, 41}, "diameter of the search disc, odd, px");
   v("h_over_sigma", o.h_over_sigma, Bounds{0.1, 5}, "filter strength in units of the noise");
 }
 

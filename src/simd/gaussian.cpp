@@ -1,5 +1,7 @@
 #include "simd/gaussian.hpp"
 
+#include <algorithm>
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "simd/gaussian.cpp"
 #include "simd/config.hpp"
@@ -15,38 +17,52 @@ namespace hn = hwy::HWY_NAMESPACE;
 using F32 = hn::CappedTag<float, 16>;
 using Floats = hn::Vec<F32>;
 
-// The four pixels at (+-i, +-j).
-HWY_INLINE Floats corners(const float* p, std::ptrdiff_t i, std::ptrdiff_t j) {
-  const F32 d;
-  return (hn::LoadU(d, p - j - i) + hn::LoadU(d, p - j + i)) +
-         (hn::LoadU(d, p + j - i) + hn::LoadU(d, p + j + i));
-}
-
-// The four pixels at (+-i, 0) and (0, +-j).
-HWY_INLINE Floats cross(const float* p, std::ptrdiff_t i, std::ptrdiff_t j) {
-  const F32 d;
-  return (hn::LoadU(d, p - i) + hn::LoadU(d, p + i)) + (hn::LoadU(d, p - j) + hn::LoadU(d, p + j));
-}
-
-void paper_kernel_row(const float* centre, std::ptrdiff_t stride, int width, float* out) {
-  const F32 d;
-  const auto weigh = [d](float weight, Floats sum) HWY_ATTR { return hn::Set(d, weight) * sum; };
-  for (int x = 0; x < width; x += static_cast<int>(hn::Lanes(d))) {
-    const float* p = centre + x;
-    Floats sum = weigh(15, hn::LoadU(d, p));
-    sum = sum + weigh(12, cross(p, 1, stride));
-    sum = sum + weigh(9, corners(p, 1, stride));
-    sum = sum + weigh(5, cross(p, 2, 2 * stride));
-    sum = sum + weigh(4, corners(p, 2, stride) + corners(p, 1, 2 * stride));
-    sum = sum + weigh(2, corners(p, 2, 2 * stride));
-    hn::StoreU(sum / hn::Set(d, 159), d, out + x);
+// Calls process(x) for vectors that cover `width`; the last one ends there, and may repeat pixels
+// of the one before.
+template <class Process>
+HWY_INLINE void for_each_vector(int width, const Process& process) {
+  const int lanes = static_cast<int>(hn::Lanes(F32()));
+  for (int x = 0; x < width; x += lanes) {
+    process(std::max(std::min(x, width - lanes), 0));
   }
+}
+
+// The pixels i to the left and to the right.
+HWY_INLINE Floats both(const float* p, std::ptrdiff_t i) {
+  return hn::LoadU(F32(), p - i) + hn::LoadU(F32(), p + i);
+}
+
+void paper_kernel_row(const float* centre, std::ptrdiff_t stride, int width, float* near,
+                      float* far, float* out) {
+  const F32 d;
+  constexpr int kReach = kPaperKernelRadius;
+  for_each_vector(width + 2 * kReach, [&](int x) HWY_ATTR {
+    hn::StoreU(both(centre - kReach + x, stride), d, near + x);
+    hn::StoreU(both(centre - kReach + x, 2 * stride), d, far + x);
+  });
+  const auto weigh = [d](int weight, Floats sum) HWY_ATTR {
+    return hn::Set(d, static_cast<float>(weight) / 159) * sum;
+  };
+  for_each_vector(width, [&](int x) HWY_ATTR {
+    const float* p0 = centre + x;
+    const float* p1 = near + kReach + x;
+    const float* p2 = far + kReach + x;
+    const Floats c = hn::LoadU(d, p0);
+    const Floats four = hn::Set(d, 4) * c;
+    const Floats knights = both(p1, 2) + both(p2, 1);
+    Floats sum = weigh(12, (both(p0, 1) + hn::LoadU(d, p1)) - four);
+    sum = sum + weigh(9, both(p1, 1) - four);
+    sum = sum + weigh(5, (both(p0, 2) + hn::LoadU(d, p2)) - four);
+    sum = sum + weigh(4, knights - (four + four));
+    sum = sum + weigh(2, both(p2, 2) - four);
+    hn::StoreU(c + sum, d, out + x);
+  });
 }
 
 void smooth_row(const float* centre, std::ptrdiff_t step, const float* weights, int radius,
                 int width, float* out) {
   const F32 d;
-  for (int x = 0; x < width; x += static_cast<int>(hn::Lanes(d))) {
+  for_each_vector(width, [&](int x) HWY_ATTR {
     const Floats c = hn::LoadU(d, centre + x);
     Floats sum = hn::Zero(d);
     for (int k = 1; k <= radius; ++k) {
@@ -55,7 +71,7 @@ void smooth_row(const float* centre, std::ptrdiff_t step, const float* weights, 
       sum = sum + hn::Set(d, weights[k]) * ((before - c) + (behind - c));
     }
     hn::StoreU(c + sum, d, out + x);
-  }
+  });
 }
 
 }  // namespace HWY_NAMESPACE
@@ -68,8 +84,9 @@ namespace thermedge::detail {
 HWY_EXPORT(paper_kernel_row);
 HWY_EXPORT(smooth_row);
 
-void paper_kernel_row(const float* centre, std::ptrdiff_t stride, int width, float* out) {
-  HWY_DYNAMIC_DISPATCH(paper_kernel_row)(centre, stride, width, out);
+void paper_kernel_row(const float* centre, std::ptrdiff_t stride, int width, float* near,
+                      float* far, float* out) {
+  HWY_DYNAMIC_DISPATCH(paper_kernel_row)(centre, stride, width, near, far, out);
 }
 
 void smooth_row(const float* centre, std::ptrdiff_t step, const float* weights, int radius,

@@ -43,17 +43,15 @@ void running_sums(const std::uint16_t* values, std::ptrdiff_t step, int count, i
   }
 }
 
-// exp(-x) for 0 <= x <= 80, error below 3e-6 of it: 2^-n times a polynomial for 2^-f.
-HWY_INLINE Floats exp_minus(Floats x) {
+// 2^-x for 0 <= x <= 100, error below 1.1e-4 of it: 2^-n times a polynomial for 2^-f.
+HWY_INLINE Floats exp2_minus(Floats exponent) {
   const F32 d;
   const hn::RebindToSigned<F32> d32;
-  const auto exponent = x * hn::Set(d, 1.44269504F);
   const auto whole = hn::ConvertTo(d32, exponent);  // towards zero, so down
   const auto fraction = exponent - hn::ConvertTo(d, whole);
-  auto sum = hn::Set(d, 0.00683189452F);
-  sum = sum * fraction + hn::Set(d, -0.0532235775F);
-  sum = sum * fraction + hn::Set(d, 0.239456744F);
-  sum = sum * fraction + hn::Set(d, -0.69306357F);
+  auto sum = hn::Set(d, -0.0391339850F);
+  sum = sum * fraction + hn::Set(d, 0.230555796F);
+  sum = sum * fraction + hn::Set(d, -0.691421812F);
   sum = sum * fraction + hn::Set(d, 1.0F);
   return hn::BitCast(d, hn::BitCast(d32, sum) - hn::ShiftLeft<23>(whole));
 }
@@ -65,9 +63,8 @@ HWY_INLINE Floats weights_of(const std::uint16_t* distances, const NlmWeights& w
   const hn::Rebind<std::uint16_t, F32> d16;
   const auto distance = hn::ConvertTo(d, hn::PromoteTo(d32, hn::LoadU(d16, distances)));
   const auto excess = hn::Max(distance - hn::Set(d, weigh.noise), hn::Zero(d));
-  const auto exponential = exp_minus(excess * hn::Set(d, weigh.inverse_h_squared));
   const auto far = distance >= hn::Set(d, static_cast<float>(kLargestDistance));
-  return hn::IfThenZeroElse(far, exponential);
+  return hn::IfThenZeroElse(far, exp2_minus(excess * hn::Set(d, weigh.halvings)));
 }
 
 class Band {
@@ -137,7 +134,9 @@ void nlm_band(const NlmBand& band, int patch_px, int search_px, const NlmWeights
   const int reach = search_px / 2;
   for (int dy = -reach; dy <= reach; ++dy) {
     for (int dx = -reach; dx <= reach; ++dx) {
-      kernel.add_displacement(dx, dy);
+      if (nlm_samples(dx, dy, reach)) {
+        kernel.add_displacement(dx, dy);
+      }
     }
   }
 }

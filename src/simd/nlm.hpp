@@ -20,11 +20,20 @@ inline constexpr int kNlmScratchRows = 2;
 // Weights of a patch's pixels along either side: 1 2 ... half ... 2 1; their sum is half^2.
 [[nodiscard]] constexpr int nlm_patch_half(int patch_px) { return (patch_px + 1) / 2; }
 
-// The weight of distance s is exp(-max(s - noise, 0) * inverse_h_squared), and 0 at
+// Whether the search window of +- `reach` looks at this displacement: within a disc, all of them up
+// to half its radius, farther off every other one of every other row. Near patches are the likelier
+// matches, and all of the far ones together would outweigh them.
+[[nodiscard]] constexpr bool nlm_samples(int dx, int dy, int reach) {
+  const int square = dx * dx + dy * dy;
+  const bool near = 4 * square <= reach * reach;
+  return square <= reach * (reach + 1) && (near || (dx % 2 == 0 && dy % 2 == 0));
+}
+
+// The weight of distance s is 2^(-max(s - noise, 0) * halvings), and 0 at
 // kLargestDistance.
 struct NlmWeights {
   float noise = 0;
-  float inverse_h_squared = 0;
+  float halvings = 0;
 };
 
 // A band of rows of the result. `values` and `levels` have margins of search_px / 2 + patch_px / 2
