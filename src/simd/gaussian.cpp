@@ -32,30 +32,29 @@ HWY_INLINE Floats both(const float* p, std::ptrdiff_t i) {
   return hn::LoadU(F32(), p - i) + hn::LoadU(F32(), p + i);
 }
 
-void paper_kernel_row(const float* centre, std::ptrdiff_t stride, int width, float* near,
-                      float* far, float* out) {
+// K = w w' / 2 + t t' - 1.5 at the centre, with w = (2 4 5 4 2) and t = (0 1 2 1 0).
+void paper_kernel_row(const float* centre, std::ptrdiff_t stride, int width, float* wide,
+                      float* narrow, float* out) {
   const F32 d;
   constexpr int kReach = kPaperKernelRadius;
+  const auto two = hn::Set(d, 2);
+  const auto four = hn::Set(d, 4);
+  const auto five = hn::Set(d, 5);
   for_each_vector(width + 2 * kReach, [&](int x) HWY_ATTR {
-    hn::StoreU(both(centre - kReach + x, stride), d, near + x);
-    hn::StoreU(both(centre - kReach + x, 2 * stride), d, far + x);
+    const float* p = centre - kReach + x;
+    const Floats c = hn::LoadU(d, p);
+    const Floats near = both(p, stride);
+    hn::StoreU((two * both(p, 2 * stride) + four * near) + five * c, d, wide + x);
+    hn::StoreU(near + two * c, d, narrow + x);
   });
-  const auto weigh = [d](int weight, Floats sum) HWY_ATTR {
-    return hn::Set(d, static_cast<float>(weight) / 159) * sum;
-  };
   for_each_vector(width, [&](int x) HWY_ATTR {
-    const float* p0 = centre + x;
-    const float* p1 = near + kReach + x;
-    const float* p2 = far + kReach + x;
-    const Floats c = hn::LoadU(d, p0);
-    const Floats four = hn::Set(d, 4) * c;
-    const Floats knights = both(p1, 2) + both(p2, 1);
-    Floats sum = weigh(12, (both(p0, 1) + hn::LoadU(d, p1)) - four);
-    sum = sum + weigh(9, both(p1, 1) - four);
-    sum = sum + weigh(5, (both(p0, 2) + hn::LoadU(d, p2)) - four);
-    sum = sum + weigh(4, knights - (four + four));
-    sum = sum + weigh(2, both(p2, 2) - four);
-    hn::StoreU(c + sum, d, out + x);
+    const Floats c = hn::LoadU(d, centre + x);
+    const float* w = wide + kReach + x;
+    const float* t = narrow + kReach + x;
+    const Floats by_w = (both(w, 2) + two * both(w, 1)) + hn::Set(d, 2.5F) * hn::LoadU(d, w);
+    const Floats by_t = both(t, 1) + two * hn::LoadU(d, t);
+    const Floats excess = (by_w + by_t) - hn::Set(d, 160.5F) * c;
+    hn::StoreU(c + hn::Set(d, 1.0F / 159) * excess, d, out + x);
   });
 }
 
@@ -84,9 +83,9 @@ namespace thermedge::detail {
 HWY_EXPORT(paper_kernel_row);
 HWY_EXPORT(smooth_row);
 
-void paper_kernel_row(const float* centre, std::ptrdiff_t stride, int width, float* near,
-                      float* far, float* out) {
-  HWY_DYNAMIC_DISPATCH(paper_kernel_row)(centre, stride, width, near, far, out);
+void paper_kernel_row(const float* centre, std::ptrdiff_t stride, int width, float* wide,
+                      float* narrow, float* out) {
+  HWY_DYNAMIC_DISPATCH(paper_kernel_row)(centre, stride, width, wide, narrow, out);
 }
 
 void smooth_row(const float* centre, std::ptrdiff_t step, const float* weights, int radius,

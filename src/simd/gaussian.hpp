@@ -12,17 +12,17 @@ inline constexpr int kPaperKernelRadius = 2;
 inline constexpr int kGaussianSlack = 16;
 
 // One row of the 5x5 kernel of eq. 5:
-//   out[x] = c + sum of K(i, j) (centre[x + i + j * stride] - c) / 159 over |i|, |j| <= 2
-// with c = centre[x]; written so, constants stay exactly what they are, and a large offset costs no
-// precision. `near` and `far` are scratch for the sums of the rows 1 and 2 away, each `width` + 4
-// long. `out` is not the input.
-void paper_kernel_row(const float* centre, std::ptrdiff_t stride, int width, float* near,
-                      float* far, float* out);
+//   out[x] = c + (sum of K(i, j) centre[x + i + j * stride] over |i|, |j| <= 2 - 159 c) / 159
+// with c = centre[x]; written so, whole numbers that are constant stay exactly what they are.
+// `wide` and `narrow` are scratch, each `width` + 4 long. `out` is not the input.
+void paper_kernel_row(const float* centre, std::ptrdiff_t stride, int width, float* wide,
+                      float* narrow, float* out);
 
 // One row of a symmetric filter whose weights w(-radius) ... w(radius) have the sum 1:
 //   out[x] = c + sum over k = 1 .. radius of w(k) ((centre[x - k step] - c) + (centre[x + k step] -
 //   c))
-// with c = centre[x], as above.
+// with c = centre[x]; written so, constants stay exactly what they are, and a large offset costs no
+// precision. `out` is not the input.
 void smooth_row(const float* centre, std::ptrdiff_t step, const float* weights, int radius,
                 int width, float* out);
 
