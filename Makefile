@@ -2,6 +2,9 @@
 SHELL := /bin/bash
 .SHELLFLAGS := -eu -o pipefail -c
 
+# Pictures for `make bench`, see docs/benchmarks.md; optional.
+PHOTOGRAPHS ?= ../shared/data/denoise
+
 .PHONY: help build demo test check bench clean
 
 help:
@@ -9,7 +12,7 @@ help:
 	@echo "make demo    edges of simulated frames, pictures under demo/"
 	@echo "make test    all tests"
 	@echo "make check   format, static analysis, tests under sanitizers"
-	@echo "make bench   time of every stage on this machine"
+	@echo "make bench   speed and quality on this machine, beside OpenCV where it is installed"
 	@echo "make clean   remove what was built"
 
 build:
@@ -35,8 +38,11 @@ check: build
 bench: build
 	@scripts/install_packages.sh bench
 	@cmake --preset release -DTHERMEDGE_BUILD_BENCH=ON >/dev/null
-	@cmake --build --preset release --target stages_bench
+	@cmake --build --preset release --target stages_bench denoise_bench
 	@build/release/bench/stages_bench
+	@build/release/bench/denoise_bench docs/benchmarks/denoise.csv "$(PHOTOGRAPHS)"
+	@/usr/bin/python3 scripts/plot_denoise.py docs/benchmarks/denoise.csv
+	@echo "Tables and plots: docs/benchmarks.md"
 
 clean:
 	rm -rf build demo

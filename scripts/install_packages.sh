@@ -8,7 +8,7 @@ declare -A packages=(
            nlohmann-json3-dev libtomlplusplus-dev libcli11-dev libfmt-dev libgtest-dev
            pkg-config libcairo2-dev fonts-open-sans"
   [check]="clang-format clang-tidy"
-  [bench]="libbenchmark-dev"
+  [bench]="libbenchmark-dev python3-matplotlib"
 )
 
 missing=()

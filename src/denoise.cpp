@@ -1,7 +1,6 @@
 #include "thermedge/denoise.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <new>
 #include <string>
@@ -21,13 +20,6 @@ Status check_odd(int value, const std::string& name) {
                                   name + " = " + std::to_string(value) + ": must be odd");
 }
 
-Status check_zero_or(bool ok, int value, const std::string& name, const std::string& right) {
-  return value == 0 || ok ? Status{}
-                          : failure(ErrorCode::kInvalidArgument,
-                                    name + " = " + std::to_string(value) + ": must be " + right +
-                                        ", or 0 for what the profile has");
-}
-
 Status check_sigma_px(double sigma_px) {
   return sigma_px == 0 || sigma_px >= 0.3
              ? Status{}
@@ -40,23 +32,9 @@ Status check_denoise_options(const DenoiseOptions& options) {
   if (Status status = check_ranges(options, "denoise."); !status) {
     return status;
   }
-  const Bm3dOptions& bm3d = options.bm3d;
-  const auto is_power_of_two = [](int value) {
-    return std::has_single_bit(static_cast<unsigned>(value));
-  };
-  const auto check_group = [&](int value, const std::string& name) {
-    return check_zero_or(is_power_of_two(value), value, name, "1, 2, 4, 8, 16 or 32");
-  };
-  for (const Status& status :
-       {check_sigma_px(options.gaussian.sigma_px),
-        check_odd(options.nlm.patch_px, "denoise.nlm.patch_px"),
-        check_odd(options.nlm.search_px, "denoise.nlm.search_px"),
-        check_zero_or(is_power_of_two(bm3d.step_px), bm3d.step_px, "denoise.bm3d.step_px",
-                      "1, 2, 4 or 8"),
-        check_zero_or(bm3d.search_radius_px >= 4, bm3d.search_radius_px,
-                      "denoise.bm3d.search_radius_px", "4 to 32"),
-        check_group(bm3d.group_hard, "denoise.bm3d.group_hard"),
-        check_group(bm3d.group_wiener, "denoise.bm3d.group_wiener")}) {
+  for (const Status& status : {check_sigma_px(options.gaussian.sigma_px),
+                               check_odd(options.nlm.patch_px, "denoise.nlm.patch_px"),
+                               check_odd(options.nlm.search_px, "denoise.nlm.search_px")}) {
     if (!status) {
       return status;
     }
@@ -85,9 +63,9 @@ Status check_sigma(double sigma) {
 Status check_side(ImageView<const float> in) {
   return std::min(in.width(), in.height()) >= detail::kBlockPx
              ? Status{}
-             : failure(ErrorCode::kInvalidArgument,
-                       "frame of " + std::to_string(in.width()) + " x " +
-                           std::to_string(in.height()) + " pixels: bm3d needs 8 x 8 or more");
+             : failure(ErrorCode::kInvalidArgument, "frame of " + std::to_string(in.width()) +
+                                                        " x " + std::to_string(in.height()) +
+                                                        " pixels: bm3d needs 8 x 8 or more");
 }
 
 }  // namespace
@@ -167,7 +145,7 @@ struct Denoiser::Impl {
   Status options_status;
   detail::GaussianFilter gaussian{options.gaussian};
   detail::NonLocalMeans nlm{options.nlm};
-  detail::Bm3d bm3d{options_status ? options.bm3d : Bm3dOptions{}};
+  detail::Bm3d bm3d{detail::bm3d_settings(options.bm3d)};
 };
 
 Denoiser::Denoiser(const DenoiseOptions& options) : impl_(std::make_unique<Impl>(options)) {}

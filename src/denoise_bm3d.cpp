@@ -34,9 +34,29 @@ int continued(int side, int step) {
 
 }  // namespace
 
-Bm3d::Bm3d(const Bm3dOptions& options)
-    : options_(resolved(options)), pattern_(options_.search_radius_px) {
-  const double beta_squared = options.kaiser_beta * options.kaiser_beta;
+Bm3dSettings bm3d_settings(const Bm3dOptions& options) {
+  Bm3dSettings settings;
+  settings.options = options;
+  switch (options.profile) {
+    case Bm3dProfile::kQuality:
+      settings.step_px = 2;
+      settings.search_radius_px = 20;
+      break;
+    case Bm3dProfile::kBalanced:
+      settings.wiener.staggered = true;
+      break;
+    case Bm3dProfile::kFast:
+      settings.hard.staggered = true;
+      settings.wiener.staggered = true;
+      break;
+  }
+  return settings;
+}
+
+Bm3d::Bm3d(const Bm3dSettings& settings)
+    : settings_(settings), pattern_(settings.search_radius_px) {
+  const double beta = settings.options.kaiser_beta;
+  const double beta_squared = beta * beta;
   for (int i = 0; i < kBlockPx; ++i) {
     const double position = 2.0 * i / (kBlockPx - 1) - 1;
     profile_[i] = static_cast<float>(bessel_i0_of_square(beta_squared * (1 - position * position)) /
@@ -48,7 +68,7 @@ Bm3d::Bm3d(const Bm3dOptions& options)
 }
 
 Bm3d::Band Bm3d::band(int index) const {
-  const int radius = options_.search_radius_px;
+  const int radius = settings_.search_radius_px;
   Band band;
   band.first_y = index * kBandPx;
   band.end_y = std::min(band.first_y + kBandPx, height_ - kBlockPx + 1);
@@ -58,22 +78,23 @@ Bm3d::Band Bm3d::band(int index) const {
 }
 
 void Bm3d::prepare(int width, int height) {
-  width_ = continued(width, options_.step_px);
-  height_ = continued(height, options_.step_px);
+  width_ = continued(width, settings_.step_px);
+  height_ = continued(height, settings_.step_px);
   noisy_.resize(MatchGuide::readable_width(width_), height_);
   estimate_.resize(MatchGuide::readable_width(width_), height_);
-  guide_.resize(width_, height_, options_.search_radius_px);
+  guide_.resize(width_, height_, settings_.search_radius_px);
   sums_.resize(width_, height_);
   corner_weights_.resize(kWeightMargin + width_, height_);
   weights_.resize(width_, kWeightMargin + height_);
   fill_pixels(weights_.view().crop(0, 0, width_, kWeightMargin), 0.0F);
+  make_columns();
   bands_.resize(static_cast<std::size_t>((height_ - kBlockPx) / kBandPx + 1));
   for (std::size_t i = 0; i < bands_.size(); ++i) {
     const Band rows = band(static_cast<int>(i));
     bands_[i].sums.resize(width_, rows.end_row - rows.first_row);
     bands_[i].weights.resize(kWeightMargin + width_, rows.end_row - rows.first_row);
     bands_[i].match.prepare(pattern_, (width_ - kBlockPx) / kCellPx + 1);
-    bands_[i].groups.resize(static_cast<std::size_t>((width_ - kBlockPx) / options_.step_px + 1));
+    bands_[i].groups.resize(all_columns_.size());
   }
 }
 
@@ -84,21 +105,44 @@ void Bm3d::load(ImageView<const float> in, const NoiseUnits& units, Runner& runn
   });
 }
 
+// Columns of cells; the last one always has a block, so that the blocks cover the frame.
+void Bm3d::make_columns() {
+  const int last = (width_ - kBlockPx) / kCellPx;
+  const auto fill = [&](std::vector<int>& columns, int first, int every) {
+    columns.clear();
+    for (int column = first; column < last; column += every) {
+      columns.push_back(column);
+    }
+    columns.push_back(last);
+  };
+  fill(all_columns_, 0, std::max(settings_.step_px / kCellPx, 1));
+  fill(even_columns_, 0, 2);
+  fill(odd_columns_, 1, 2);
+}
+
+// Of a staggered stage every other row is shifted; but for the last, which ends what it covers.
+std::span<const int> Bm3d::columns_of(const StageSettings& stage, int y) const {
+  const bool is_even = y / kCellPx % 2 == 0 || y == height_ - kBlockPx;
+  return !stage.staggered ? all_columns_ : is_even ? even_columns_ : odd_columns_;
+}
+
 void Bm3d::filter_row(Stage stage, int y, BandScratch& scratch, const Accumulator& sums) const {
-  const int largest = stage == Stage::kHard ? options_.group_hard : options_.group_wiener;
-  const int step = options_.step_px;
-  // Reference blocks must be whole cells apart: those between cells are rows of their own.
-  for (int x = 0; x < std::max(step, kCellPx); x += step) {
-    ReferenceRow row;
-    row.x = x;
-    row.y = y;
-    row.every = std::max(step / kCellPx, 1);
-    row.count = std::max((width_ - kBlockPx - x) / (row.every * kCellPx) + 1, 0);
-    match_row(guide_, pattern_, row, largest, scratch.match, scratch.groups);
-    for (const BlockGroup& group : std::span(scratch.groups).first(row.count)) {
-      if (stage == Stage::kHard) {
-        filter_hard(noisy_.view(), group.view(), static_cast<float>(options_.lambda), window_,
-                    sums);
+  const bool is_hard = stage == Stage::kHard;
+  const StageSettings& settings = is_hard ? settings_.hard : settings_.wiener;
+  // Blocks between whole cells are rows of their own.
+  for (int x = 0; x < kCellPx; x += settings_.step_px) {
+    ReferenceRow row{x, y, columns_of(settings, y)};
+    if (x > 0) {
+      row.columns = row.columns.first(row.columns.size() - 1);  // they begin behind the last cell
+    }
+    if (row.columns.empty()) {
+      continue;
+    }
+    match_row(guide_, pattern_, row, settings.largest_group, scratch.match, scratch.groups);
+    for (const BlockGroup& group : std::span(scratch.groups).first(row.columns.size())) {
+      if (is_hard) {
+        filter_hard(noisy_.view(), group.view(), static_cast<float>(settings_.options.lambda),
+                    window_, sums);
       } else {
         filter_wiener(noisy_.view(), estimate_.view(), group.view(), window_, sums);
       }
@@ -111,12 +155,11 @@ void Bm3d::filter_band(Stage stage, int index) {
   BandScratch& scratch = bands_[static_cast<std::size_t>(index)];
   fill_pixels(scratch.sums.view(), 0.0F);
   fill_pixels(scratch.weights.view(), 0.0F);
-  scratch.match.pairs_row = {};
+  scratch.match.pairs_cells = 0;
   const Accumulator sums = {
-      scratch.sums,
-      scratch.weights.view().crop(kWeightMargin, 0, width_, scratch.weights.height()),
+      scratch.sums, scratch.weights.view().crop(kWeightMargin, 0, width_, scratch.weights.height()),
       rows.first_row};
-  for (int y = rows.first_y; y < rows.end_y; y += options_.step_px) {
+  for (int y = rows.first_y; y < rows.end_y; y += settings_.step_px) {
     filter_row(stage, y, scratch, sums);
   }
 }
@@ -153,7 +196,7 @@ void Bm3d::run(ImageView<const float> in, const NoiseUnits& units, ImageView<flo
   prepare(in.width(), in.height());
   load(in, units, runner);
   run_stage(Stage::kHard, runner);
-  if (options_.wiener) {
+  if (settings_.options.wiener) {
     for_each_row(height_, runner, [&](int y) { guide_.set_row(estimate_.row(y), y); });
     run_stage(Stage::kWiener, runner);
   }
@@ -164,31 +207,3 @@ void Bm3d::run(ImageView<const float> in, const NoiseUnits& units, ImageView<flo
 }
 
 }  // namespace thermedge::detail
-
-namespace thermedge {
-
-Bm3dOptions resolved(const Bm3dOptions& options) {
-  struct Numbers {
-    int step_px, search_radius_px, group_hard, group_wiener;
-  };
-  const Numbers numbers = [&]() -> Numbers {
-    switch (options.profile) {
-      case Bm3dProfile::kQuality:
-        return {2, 20, 16, 16};
-      case Bm3dProfile::kFast:
-        return {4, 12, 8, 8};
-      case Bm3dProfile::kBalanced:
-        break;
-    }
-    return {4, 16, 16, 16};
-  }();
-  Bm3dOptions filled = options;
-  const auto fill = [](int& value, int from_profile) { value = value == 0 ? from_profile : value; };
-  fill(filled.step_px, numbers.step_px);
-  fill(filled.search_radius_px, numbers.search_radius_px);
-  fill(filled.group_hard, numbers.group_hard);
-  fill(filled.group_wiener, numbers.group_wiener);
-  return filled;
-}
-
-}  // namespace thermedge

@@ -1,6 +1,7 @@
 // BM3D (Dabov et al. 2007; parameters as in Lebrun, IPOL 2012).
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "denoise_frame.hpp"
@@ -10,13 +11,29 @@
 
 namespace thermedge::detail {
 
+struct StageSettings {
+  int largest_group = 16;  // blocks: 1, 2, 4, 8, 16 or 32
+  // Every other reference block, like the black squares of a chessboard; for steps of 4 px only.
+  bool staggered = false;
+};
+
+// What a profile stands for.
+struct Bm3dSettings {
+  Bm3dOptions options;
+  int step_px = 4;            // distance of reference blocks: 1, 2, 4 or 8
+  int search_radius_px = 16;  // largest displacement of matched blocks, 4..kLargestSearchRadius
+  StageSettings hard;
+  StageSettings wiener;
+};
+[[nodiscard]] Bm3dSettings bm3d_settings(const Bm3dOptions& options);
+
 // Both stages do the same: match blocks on a guide (the frame itself, then the first estimate),
 // filter each group, add the blocks up. Reference blocks are cut into bands of rows; each band has
 // its own sums, which are merged in band order. The frame is continued to the right and down by
 // mirroring until the reference blocks cover it.
 class Bm3d {
  public:
-  explicit Bm3d(const Bm3dOptions& options);
+  explicit Bm3d(const Bm3dSettings& settings);
 
   // Makes the scratch memory for frames of this size, which run() would make otherwise.
   void prepare(int width, int height);
@@ -41,6 +58,8 @@ class Bm3d {
   };
 
   [[nodiscard]] Band band(int index) const;
+  [[nodiscard]] std::span<const int> columns_of(const StageSettings& stage, int y) const;
+  void make_columns();
   void load(ImageView<const float> in, const NoiseUnits& units, Runner& runner);
   void run_stage(Stage stage, Runner& runner);
   void filter_band(Stage stage, int index);
@@ -48,13 +67,16 @@ class Bm3d {
   void merge_row(int y);
   void finish_row(int y);
 
-  Bm3dOptions options_;
+  Bm3dSettings settings_;
   SearchPattern pattern_;
   float profile_[kBlockPx];  // Kaiser window
   BlockWindow window_;       // its product with itself
 
   int width_ = 0;  // of the continued frame
   int height_ = 0;
+  std::vector<int> all_columns_;   // where reference blocks stand, in cells
+  std::vector<int> even_columns_;  // and those of staggered rows
+  std::vector<int> odd_columns_;
   Image<float> noisy_;     // in units of the noise
   Image<float> estimate_;  // of the stage before
   MatchGuide guide_;

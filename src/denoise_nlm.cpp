@@ -59,7 +59,8 @@ void NonLocalMeans::run(ImageView<const float> in, const NoiseUnits& units, Imag
   // In units of distance: what noise, that of rounding (variance 1/12) included, adds, and h^2.
   const double noise = patch_weight * 2 * (levels * levels + 1.0 / 12);
   const double h = levels * options_.h_over_sigma;
-  const NlmWeights weigh{static_cast<float>(noise), static_cast<float>(std::numbers::log2e / (patch_weight * h * h))};
+  const NlmWeights weigh{static_cast<float>(noise),
+                         static_cast<float>(std::numbers::log2e / (patch_weight * h * h))};
 
   runner.run(tasks_for(in.height()), [&](int task) {
     const int y = task * kRowsPerTask;

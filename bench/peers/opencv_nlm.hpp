@@ -10,8 +10,7 @@
 namespace thermedge::bench {
 
 // Grey levels 0..255 in and out; the filter strength is sigma, as OpenCV's documentation has it.
-inline void opencv_nlm(ImageView<const float> in, double sigma, int threads,
-                       ImageView<float> out) {
+inline void opencv_nlm(ImageView<const float> in, double sigma, int threads, ImageView<float> out) {
   cv::setNumThreads(threads);
   const cv::Mat source(in.height(), in.width(), CV_32F, const_cast<float*>(in.data()),
                        static_cast<std::size_t>(in.stride()) * sizeof(float));

@@ -27,21 +27,13 @@ struct NlmOptions {
 // How much time BM3D may take; docs/benchmarks.md has what each gives.
 enum class Bm3dProfile { kQuality, kBalanced, kFast };
 
-// Dabov et al. 2007; the roles of the parameters as in Lebrun's analysis (IPOL 2012). A 0 stands
-// for what the profile has.
+// Dabov et al. 2007; the roles of the parameters as in Lebrun's analysis (IPOL 2012).
 struct Bm3dOptions {
   Bm3dProfile profile = Bm3dProfile::kBalanced;
-  int step_px = 0;           // distance of reference blocks, 1, 2, 4 or 8; time falls with its square
-  int search_radius_px = 0;  // largest displacement of matched blocks, 4..32
-  int group_hard = 0;        // most blocks in a group of stage 1: 1, 2, 4, 8, 16 or 32
-  int group_wiener = 0;      // most blocks in a group of stage 2: 1, 2, 4, 8, 16 or 32
   double lambda = 2.6;       // hard threshold in units of sigma, 0.5..10
   double kaiser_beta = 2.0;  // window of the aggregation, 0..10
   bool wiener = true;        // run stage 2 (costs as much as stage 1, gives 0.3 to 0.6 dB)
 };
-
-// The same options with the profile's numbers in place of zeros.
-[[nodiscard]] Bm3dOptions resolved(const Bm3dOptions& options);
 
 struct DenoiseOptions {
   DenoiseMethod method = DenoiseMethod::kBm3d;

@@ -112,13 +112,6 @@ void visit_options(O& o, V&& v) {
 template <OptionsOf<Bm3dOptions> O, class V>
 void visit_options(O& o, V&& v) {
   v("profile", o.profile, kBm3dProfiles, "quality, balanced or fast");
-  v("step_px", o.step_px, Bounds{0, 8}, "distance of reference blocks, px (0: the profile's)");
-  v("search_radius_px", o.search_radius_px, Bounds{0, 32},
-    "reach of block matching, px (0: the profile's)");
-  v("group_hard", o.group_hard, Bounds{0, 32},
-    "most blocks a group in stage 1, a power of two (0: the profile's)");
-  v("group_wiener", o.group_wiener, Bounds{0, 32},
-    "most blocks a group in stage 2, a power of two (0: the profile's)");
   v("lambda", o.lambda, Bounds{0.5, 10}, "hard threshold in units of the noise");
   v("kaiser_beta", o.kaiser_beta, Bounds{0, 10}, "shape of the aggregation window");
   v("wiener", o.wiener, Bounds{0, 1}, "run the second stage");

@@ -33,8 +33,8 @@ inline int rounded_up(int value, int multiple) {
 struct Search {
   [[nodiscard]] int last_x() const { return guide.width() - kBlockPx; }
   [[nodiscard]] int last_y() const { return guide.height() - kBlockPx; }
-  // Cells from the first reference block to the last.
-  [[nodiscard]] int lanes() const { return (row.count - 1) * row.every + 1; }
+  // Cells from x to the last reference block.
+  [[nodiscard]] int lanes() const { return row.columns.back() + 1; }
 
   const MatchGuide& guide;
   const SearchPattern& pattern;
@@ -149,8 +149,8 @@ HWY_INLINE hn::Vec<I16> distances_of(const Search& search, SearchPattern::Candid
   if (candidate.dx == 0 && candidate.dy == 0) {
     return hn::Zero(di);
   }
-  const auto distances = hn::BitCast(
-      di, hn::Min(hn::SaturatedAdd(sums, hn::Set(d, 1)), hn::Set(d, kFarthest)));
+  const auto distances =
+      hn::BitCast(di, hn::Min(hn::SaturatedAdd(sums, hn::Set(d, 1)), hn::Set(d, kFarthest)));
   const int left = search.row.x + kCellPx * x + candidate.dx;  // of the first lane
   const int right = left + kCellPx * (kLanes - 1);
   if (left >= 0 && right <= search.last_x()) {
@@ -238,8 +238,9 @@ void group_sizes(const MatchScratch& scratch, int x, int largest_group, std::int
   });
 }
 
-// Lists for each lane the classes of the sizes[lane] least distances.
-void take_nearest(int x, int largest_group, const std::int16_t* sizes, MatchScratch& scratch) {
+// Lists for each of the lanes `used` the classes of the sizes[lane] least distances.
+void take_nearest(int x, int largest_group, const std::int16_t* sizes, std::uint64_t used,
+                  MatchScratch& scratch) {
   const I16 d;
   const auto one = hn::Set(d, 1);
   const auto wanted = hn::Load(d, sizes);
@@ -264,7 +265,7 @@ void take_nearest(int x, int largest_group, const std::int16_t* sizes, MatchScra
     const auto distance = hn::Load(d, scratch.least.row(i) + x);
     const auto tied = hn::And(distance == high, ties > hn::Zero(d));
     ties = ties - hn::IfThenElseZero(tied, one);
-    std::uint64_t lanes = lanes_of(hn::Or(distance < high, tied));
+    std::uint64_t lanes = lanes_of(hn::Or(distance < high, tied)) & used;
     for (; lanes != 0; lanes &= lanes - 1) {
       const auto lane = static_cast<int>(hwy::Num0BitsBelowLS1Bit_Nonzero64(lanes));
       scratch.taken(counts[lane]++, lane) = static_cast<std::int16_t>(i);
@@ -275,20 +276,25 @@ void take_nearest(int x, int largest_group, const std::int16_t* sizes, MatchScra
 void match_row(const Search& search, int largest_group, MatchScratch& scratch,
                std::span<BlockGroup> groups) {
   find_nearest(search, scratch);
-  const int every = search.row.every;
+  const std::span<const int> columns = search.row.columns;
+  std::size_t i = 0;
   for (int x = 0; x < search.lanes(); x += kLanes) {
+    std::uint64_t used = 0;
+    for (std::size_t k = i; k < columns.size() && columns[k] < x + kLanes; ++k) {
+      used |= std::uint64_t{1} << (columns[k] - x);
+    }
     HWY_ALIGN std::int16_t sizes[kLanes];
     group_sizes(scratch, x, largest_group, sizes);
-    take_nearest(x, largest_group, sizes, scratch);
-    const int end = std::min(x + kLanes, search.lanes());
-    for (int column = rounded_up(x, every); column < end; column += every) {
+    take_nearest(x, largest_group, sizes, used, scratch);
+    for (; i < columns.size() && columns[i] < x + kLanes; ++i) {
+      const int column = columns[i];
       const int lane = column - x;
-      BlockGroup& group = groups[static_cast<std::size_t>(column / every)];
+      BlockGroup& group = groups[i];
       group.size = sizes[lane];
-      for (int i = 0; i < group.size; ++i) {
-        const int nearest = scratch.nearest(column, scratch.taken(i, lane));
+      for (int k = 0; k < group.size; ++k) {
+        const int nearest = scratch.nearest(column, scratch.taken(k, lane));
         const auto& candidate = search.pattern.candidates()[static_cast<std::size_t>(nearest)];
-        group.blocks[i] = {search.row.x + kCellPx * column + candidate.dx,
+        group.blocks[k] = {search.row.x + kCellPx * column + candidate.dx,
                            search.row.y + candidate.dy};
       }
     }
@@ -367,11 +373,13 @@ void match_row(const MatchGuide& guide, const SearchPattern& pattern, const Refe
                int largest_group, MatchScratch& scratch, std::span<BlockGroup> groups) {
   const Search search{guide, pattern, row};
   scratch.prepare(pattern, search.lanes());
-  const ReferenceRow& before = scratch.pairs_row;
-  if (before.count == 0 || before.y + kCellPx != row.y || before.x != row.x) {
+  if (scratch.pairs_cells < search.lanes() || scratch.pairs_x != row.x ||
+      scratch.pairs_y + kCellPx != row.y) {
     HWY_DYNAMIC_DISPATCH(begin_pairs)(search, scratch);
   }
-  scratch.pairs_row = row;
+  scratch.pairs_x = row.x;
+  scratch.pairs_y = row.y;
+  scratch.pairs_cells = search.lanes();
   HWY_DYNAMIC_DISPATCH(match_row)(search, largest_group, scratch, groups);
 }
 

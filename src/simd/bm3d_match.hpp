@@ -88,12 +88,11 @@ class MatchGuide {
   Image<std::int16_t> phases_;
 };
 
-// Reference blocks at x + every * kCellPx * i, i < count, all in row y.
+// Reference blocks at x + kCellPx * columns[i], rising, all in row y.
 struct ReferenceRow {
   int x = 0;
   int y = 0;
-  int count = 0;
-  int every = 1;
+  std::span<const int> columns;
 };
 
 // Scratch memory of match_row; one for each task that runs at a time. Columns are reference blocks.
@@ -106,7 +105,10 @@ struct MatchScratch {
   Image<std::int16_t> least;    // a row for each class: its least distance
   Image<std::int16_t> nearest;  // and the number of the candidate that has it
   Image<std::int16_t> taken;    // a row for each lane of a vector: the classes taken
-  ReferenceRow pairs_row;       // what `pairs` belongs to; count 0: nothing
+  // What `pairs` belongs to: rows of reference blocks with this first one, so many cells long.
+  int pairs_x = 0;
+  int pairs_y = 0;
+  int pairs_cells = 0;  // 0: nothing
 };
 
 // For each reference block of the row the group of the blocks in the frame that are most like it;
@@ -116,7 +118,7 @@ struct MatchScratch {
 // of equals wins; the group is sorted by class.
 //
 // Sums are taken over cells. Those of the lower cells serve again as upper ones if the next call
-// with this scratch is for the row kCellPx below; forget them (pairs_row = {}) when the guide
+// with this scratch is for the row kCellPx below; forget them (pairs_cells = 0) when the guide
 // changes.
 void match_row(const MatchGuide& guide, const SearchPattern& pattern, const ReferenceRow& row,
                int largest_group, MatchScratch& scratch, std::span<BlockGroup> groups);

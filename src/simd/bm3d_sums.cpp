@@ -25,8 +25,7 @@ void add_row(const float* more, int width, float* sums) {
   }
 }
 
-void spread_row(const float* profile, const float* in, std::ptrdiff_t step, int width,
-                float* out) {
+void spread_row(const float* profile, const float* in, std::ptrdiff_t step, int width, float* out) {
   const F32 d;
   for (int x = 0; x < width; x += kLanes) {
     auto sum = hn::Zero(d);
@@ -59,8 +58,7 @@ void add_row(const float* more, int width, float* sums) {
   HWY_DYNAMIC_DISPATCH(add_row)(more, width, sums);
 }
 
-void spread_row(const float* profile, const float* in, std::ptrdiff_t step, int width,
-                float* out) {
+void spread_row(const float* profile, const float* in, std::ptrdiff_t step, int width, float* out) {
   HWY_DYNAMIC_DISPATCH(spread_row)(profile, in, step, width, out);
 }
 

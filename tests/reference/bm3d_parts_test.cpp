@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
+#include <numeric>
 #include <random>
 #include <string>
 #include <utility>
@@ -117,11 +119,10 @@ TEST(Bm3dMatchTest, FindsTheNearestBlocksOfEachRow) {
           std::vector<detail::BlockGroup> groups(static_cast<std::size_t>(width / 4));
           for (int y = 0; y <= height - 8; y += 4) {
             const int largest = 1 << (y / 4 % 6);
-            detail::ReferenceRow row;
-            row.y = y;
-            row.count = (width - 8) / 4 + 1;
-            detail::match_row(guide.guide, pattern, row, largest, scratch, groups);
-            for (int i = 0; i < row.count; i += i < 2 ? 1 : 3) {
+            std::vector<int> columns(static_cast<std::size_t>((width - 8) / 4 + 1));
+            std::iota(columns.begin(), columns.end(), 0);
+            detail::match_row(guide.guide, pattern, {0, y, columns}, largest, scratch, groups);
+            for (int i = 0; i < std::ssize(columns); i += i < 2 ? 1 : 3) {
               ASSERT_EQ(positions(groups[static_cast<std::size_t>(i)]),
                         test::matches(guide.levels, {4 * i, y}, radius, largest))
                   << "block " << i << " of row " << y;
@@ -139,29 +140,29 @@ TEST(Bm3dMatchTest, FindsThemForAnyRow) {
   const detail::SearchPattern pattern(12);
   detail::MatchScratch scratch;
   std::vector<detail::BlockGroup> groups(45);
-  for (const detail::ReferenceRow row : {detail::ReferenceRow{1, 3, 40, 1},
-                                         {2, 7, 43, 1},
-                                         {2, 11, 43, 1},
-                                         {4, 31, 21, 2},
-                                         {3, 32, 15, 3},
-                                         {172, 0, 1, 1}}) {
-    detail::match_row(guide.guide, pattern, row, 16, scratch, groups);
-    for (int i = 0; i < row.count; ++i) {
-      ASSERT_EQ(positions(groups[static_cast<std::size_t>(i)]),
-                test::matches(guide.levels, {row.x + 4 * row.every * i, row.y}, 12, 16))
-          << "block " << i << " of row " << row.y;
+  const auto expect_row = [&](int x, int y, const std::vector<int>& columns) {
+    detail::match_row(guide.guide, pattern, {x, y, columns}, 16, scratch, groups);
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      ASSERT_EQ(positions(groups[i]), test::matches(guide.levels, {x + 4 * columns[i], y}, 12, 16))
+          << "column " << columns[i] << " of row " << y << " from " << x;
     }
-  }
+  };
+  expect_row(1, 3, {0, 1, 2, 5, 31, 32, 40});
+  expect_row(1, 7, {0, 7, 42});  // longer than the row above
+  expect_row(1, 11, {3, 33});
+  expect_row(2, 15, {0, 33});
+  expect_row(172, 32, {0});
+  expect_row(0, 0, {43});
 }
 
 // Values far beyond what 16 bits hold, and half levels.
 TEST(Bm3dMatchTest, QuantisesModulo65536ToTheNearestLevel) {
   Image<float> values(detail::MatchGuide::readable_width(8), 8);
   fill_pixels(values.view(), 0.0F);
-  values(0, 3) = 16384.0F + 0.25F;     // 65536 + 1 levels
-  values(1, 3) = -1e6F;                // -4000000 levels
-  values(2, 3) = 3e9F;                 // any, but no crash
-  values(3, 3) = 0.2F;                 // 0.8 levels
+  values(0, 3) = 16384.0F + 0.25F;  // 65536 + 1 levels
+  values(1, 3) = -1e6F;             // -4000000 levels
+  values(2, 3) = 3e9F;              // any, but no crash
+  values(3, 3) = 0.2F;              // 0.8 levels
   values(4, 3) = -0.2F;
   test::for_each_simd_target([&](const std::string&) {
     detail::MatchGuide guide;

@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "denoise_bm3d.hpp"
 #include "simd/bm3d_match.hpp"
 #include "thermedge/denoise.hpp"
 #include "thermedge/image.hpp"
@@ -190,9 +191,10 @@ using Group = std::vector<BlockPosition>;
 // one that reference blocks cover: 8 px and steps, at least whole cells of 4.
 class ReferenceBm3d {
  public:
-  ReferenceBm3d(const Image<double>& noisy, const Bm3dOptions& options)
+  ReferenceBm3d(const Image<double>& noisy, const detail::Bm3dSettings& settings)
       : noisy_(noisy),
-        options_(resolved(options)),
+        settings_(settings),
+        options_(settings.options),
         width_(noisy.width()),
         height_(noisy.height()) {}
 
@@ -215,11 +217,16 @@ class ReferenceBm3d {
     weights_.resize(width_, height_);
     fill_pixels(sums_.view(), 0.0);
     fill_pixels(weights_.view(), 0.0);
-    for (int y = 0; y <= height_ - kSide; y += options_.step_px) {
-      for (int x = 0; x <= width_ - kSide; x += options_.step_px) {
+    const detail::StageSettings& stage = wiener ? settings_.wiener : settings_.hard;
+    const int step = settings_.step_px;
+    for (int y = 0; y <= height_ - kSide; y += step) {
+      const int odd = y < height_ - kSide ? y / step % 2 : 0;
+      for (int x = 0; x <= width_ - kSide; x += step) {
+        if (stage.staggered && x < width_ - kSide && x / step % 2 != odd) {
+          continue;
+        }
         const Group group =
-            matches(levels, {x, y}, options_.search_radius_px,
-                    wiener ? options_.group_wiener : options_.group_hard);
+            matches(levels, {x, y}, settings_.search_radius_px, stage.largest_group);
         wiener ? filter_wiener(guide, group) : filter_hard(group);
       }
     }
@@ -309,6 +316,7 @@ class ReferenceBm3d {
   }
 
   const Image<double>& noisy_;
+  detail::Bm3dSettings settings_;
   Bm3dOptions options_;
   int width_;
   int height_;

@@ -6,6 +6,7 @@
 #include "reference/bm3d_reference.hpp"
 #include "support/images.hpp"
 #include "thermedge/denoise.hpp"
+#include "thermedge/options.hpp"
 #include "thermedge/parallel.hpp"
 
 namespace thermedge {
@@ -29,15 +30,13 @@ Image<float> step_image(int width, int height) {
   return image;
 }
 
-void expect_agreement(int width, int height, const Bm3dOptions& bm3d) {
-  DenoiseOptions options;
-  options.bm3d = bm3d;
+void expect_agreement(int width, int height, const detail::Bm3dSettings& settings) {
   const Image<float> in = step_image(width, height);
   Image<double> values(width, height);
   copy_pixels(ImageView<const float>(in), values.view());
-  const Image<double> expected = test::ReferenceBm3d(values, bm3d).run();
+  const Image<double> expected = test::ReferenceBm3d(values, settings).run();
   test::GuardedImage<float> out(width, height);
-  ASSERT_TRUE(Denoiser(options).run(in, 1, out.view(), *make_runner(1)));
+  detail::Bm3d(settings).run(in, {}, out.view(), *make_runner(1));
   ASSERT_TRUE(out.intact());
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
@@ -50,24 +49,29 @@ void expect_agreement(int width, int height, const Bm3dOptions& bm3d) {
 TEST(Bm3dTest, AgreesWithThePlainVersionOnSmallSizes) {
   for (const auto& [width, height] :
        {std::pair{8, 8}, {12, 8}, {8, 12}, {20, 20}, {40, 8}, {32, 48}, {64, 60}}) {
+    for (const auto& profile : kBm3dProfiles) {
+      Bm3dOptions options;
+      options.profile = profile.value;
+      if (profile.value != Bm3dProfile::kQuality || width * height < 1000) {
+        expect_agreement(width, height, detail::bm3d_settings(options));
+      }
+    }
     Bm3dOptions options;
     options.wiener = false;
-    expect_agreement(width, height, options);
-    options.wiener = true;
-    expect_agreement(width, height, options);
+    expect_agreement(width, height, detail::bm3d_settings(options));
   }
 }
 
-TEST(Bm3dTest, AgreesWithThePlainVersionForOtherOptions) {
+TEST(Bm3dTest, AgreesWithThePlainVersionForOtherSettings) {
   for (const int step : {1, 2, 8}) {
-    Bm3dOptions options;
-    options.step_px = step;
-    options.search_radius_px = 4 + step;
-    options.group_hard = 32 / step;
-    options.group_wiener = 2 * step;
-    options.lambda = 2;
-    options.kaiser_beta = 10.0 / step;
-    expect_agreement(24, 32, options);
+    detail::Bm3dSettings settings;
+    settings.step_px = step;
+    settings.search_radius_px = 4 + step;
+    settings.hard.largest_group = 32 / step;
+    settings.wiener.largest_group = 2 * step;
+    settings.options.lambda = 2;
+    settings.options.kaiser_beta = 10.0 / step;
+    expect_agreement(24, 32, settings);
   }
 }
 
@@ -75,13 +79,15 @@ TEST(Bm3dTest, AgreesWithThePlainVersionForOtherOptions) {
 TEST(Bm3dTest, CoversEveryPixelForEveryStep) {
   const auto runner = make_runner(1);
   for (const int step : {1, 2, 4, 8}) {
-    DenoiseOptions options;
-    options.bm3d.step_px = step;
-    options.bm3d.kaiser_beta = 10;
+    detail::Bm3dSettings settings;
+    settings.step_px = step;
+    settings.hard.staggered = step == 4;
+    settings.wiener.staggered = settings.hard.staggered;
+    settings.options.kaiser_beta = 10;
     for (int side = 8; side <= 25; ++side) {
       const Image<float> in = step_image(side, 33 - side);
       Image<float> out(side, 33 - side);
-      ASSERT_TRUE(Denoiser(options).run(in, 1, out, *runner));
+      detail::Bm3d(settings).run(in, {}, out, *runner);
       for (int y = 0; y < out.height(); ++y) {
         for (int x = 0; x < out.width(); ++x) {
           ASSERT_NEAR(out(x, y), in(x, y), 6) << "step " << step << ", side " << side;

@@ -89,22 +89,6 @@ TEST(DenoiseTest, ErrorsNameWhatIsWrong) {
   options.nlm.search_px = 20;
   EXPECT_TRUE(has(message(options), "denoise.nlm.search_px = 20"));
   options = {};
-  options.bm3d.group_hard = 12;
-  EXPECT_TRUE(has(message(options), "denoise.bm3d.group_hard = 12"));
-  options = {};
-  options.bm3d.group_wiener = 64;
-  EXPECT_TRUE(has(message(options), "denoise.bm3d.group_wiener = 64"));
-  for (const int step : {3, 7, 16}) {
-    options = {};
-    options.bm3d.step_px = step;
-    EXPECT_TRUE(has(message(options), "denoise.bm3d.step_px = " + std::to_string(step)));
-  }
-  for (const int radius : {3, -1, 33}) {
-    options = {};
-    options.bm3d.search_radius_px = radius;
-    EXPECT_TRUE(has(message(options), "denoise.bm3d.search_radius_px = " + std::to_string(radius)));
-  }
-  options = {};
   options.bm3d.lambda = std::nan("");
   EXPECT_TRUE(has(message(options), "denoise.bm3d.lambda"));
   options = {};
@@ -116,8 +100,8 @@ TEST(DenoiseTest, ErrorsNameWhatIsWrong) {
   Denoiser denoiser(DenoiseOptions{});
   EXPECT_FALSE(denoiser.run(image, 5, other, *runner));
   EXPECT_FALSE(denoiser.run(ImageView<const float>{}, 5, ImageView<float>{}, *runner));
-  const Status small = denoiser.run(image.view().crop(0, 0, 7, 8), 5, image.view().crop(0, 0, 7, 8),
-                                    *runner);
+  const Status small =
+      denoiser.run(image.view().crop(0, 0, 7, 8), 5, image.view().crop(0, 0, 7, 8), *runner);
   ASSERT_FALSE(small);
   EXPECT_EQ(small.error().message, "frame of 7 x 8 pixels: bm3d needs 8 x 8 or more");
 }
@@ -152,12 +136,11 @@ TEST(DenoiseTest, SameBitsOnEveryTargetAndRunner) {
   gaussian.gaussian.sigma_px = 1.7;
   DenoiseOptions bm3d = options_for(DenoiseMethod::kBm3d);
   bm3d.bm3d.profile = Bm3dProfile::kQuality;
-  DenoiseOptions narrow = options_for(DenoiseMethod::kBm3d);
-  narrow.bm3d.search_radius_px = 5;
-  narrow.bm3d.group_wiener = 8;
+  DenoiseOptions fast = options_for(DenoiseMethod::kBm3d);
+  fast.bm3d.profile = Bm3dProfile::kFast;
   const Image<float> in = scene(145, 130, 5);  // more than a vector and a band
   for (const DenoiseOptions& options : {options_for(DenoiseMethod::kGaussian), gaussian,
-                                        options_for(DenoiseMethod::kNlm), bm3d, narrow}) {
+                                        options_for(DenoiseMethod::kNlm), bm3d, fast}) {
     const Image<float> expected = denoised(options, in, 5, *make_runner(1));
     for (const auto& runner : test::all_runners()) {
       ASSERT_TRUE(test::same_pixels<float>(denoised(options, in, 5, *runner), expected));
@@ -295,15 +278,23 @@ TEST(DenoiseTest, NlmReachesThePublishedImplementations) {
   }
 }
 
+// Balanced within 0.1 dB and fast within 0.15 dB of it on the mean.
 TEST(DenoiseTest, Bm3dReachesTheReferenceImplementation) {
   THERMEDGE_NEEDS_SHARED("data/denoise");
   if (kInstrumented) {
     GTEST_SKIP() << "quality is measured on plain builds";
   }
   const auto runner = make_runner(2);
-  for (const Quality& quality : kQuality) {
-    const double psnr = mean_psnr(options_for(DenoiseMethod::kBm3d), quality.sigma, *runner);
-    EXPECT_GT(psnr, quality.bm3d_db - 0.10) << "sigma " << quality.sigma;
+  for (const auto& [profile, allowed_db] : {std::pair{Bm3dProfile::kQuality, 0.01},
+                                            {Bm3dProfile::kBalanced, 0.1},
+                                            {Bm3dProfile::kFast, 0.15}}) {
+    DenoiseOptions options;
+    options.bm3d.profile = profile;
+    double sum = 0;
+    for (const Quality& quality : kQuality) {
+      sum += mean_psnr(options, quality.sigma, *runner) - quality.bm3d_db;
+    }
+    EXPECT_GT(sum / kQuality.size(), -allowed_db) << "profile " << static_cast<int>(profile);
   }
 }
 

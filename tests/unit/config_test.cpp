@@ -98,12 +98,12 @@ TEST(Setting, SetsEachKindOfOption) {
   EXPECT_TRUE(apply_setting("linking.gap_px=0", options));
   EXPECT_TRUE(apply_setting("corners.end_points=false", options));
   EXPECT_TRUE(apply_setting("denoise.method=gaussian", options));
-  EXPECT_TRUE(apply_setting("denoise.bm3d.step_px=4", options));
+  EXPECT_TRUE(apply_setting("denoise.bm3d.profile=fast", options));
   EXPECT_EQ(options.contours.gap_px, 2);
   EXPECT_EQ(options.linking.gap_px, 0.0);
   EXPECT_FALSE(options.corners.end_points);
   EXPECT_EQ(options.denoise.method, DenoiseMethod::kGaussian);
-  EXPECT_EQ(options.denoise.bm3d.step_px, 4);
+  EXPECT_EQ(options.denoise.bm3d.profile, Bm3dProfile::kFast);
 }
 
 std::string setting_error(const std::string& setting) {
