@@ -54,21 +54,22 @@ def draw(rows, pictures, path):
               transform=axes.get_xaxis_transform(), fontsize=8)
     if pictures == "photographs":
         axes.axhline(BM3D_REFERENCE_DB, color="0.7", linewidth=1)
-        axes.text(0.99, BM3D_REFERENCE_DB, "BM3D reference (IPOL)", color="0.4", ha="right",
-                  va="bottom", transform=axes.get_yaxis_transform(), fontsize=8)
+        axes.text(0.99, BM3D_REFERENCE_DB, "BM3D, reference implementation (IPOL)", color="0.4",
+                  ha="right", va="bottom", transform=axes.get_yaxis_transform(), fontsize=8)
     for row in shown:
         speed, quality = float(row["mpx_per_s"]), psnr(row, pictures)
         colour = COLOURS[row["library"]]
         axes.scatter(speed, quality, color=colour, marker=SHAPES[row["method"]], s=45)
-        name = f"{row['library']} {row['method']} {row['settings']}"
-        below = (row["library"] == "OpenCV" and row["method"] == "Gaussian") or (
-            row["settings"] == "fast"
-        )
-        axes.annotate(name, (speed, quality), xytext=(0, -9 if below else 7),
-                      textcoords="offset points", ha="center", va="top" if below else "bottom",
-                      fontsize=7, color=colour)
+        left = row["library"] == "OpenCV" or row["settings"] in ("quality", "balanced")
+        axes.annotate(f"{row['method']} {row['settings']}", (speed, quality),
+                      xytext=(-6 if left else 6, 0), textcoords="offset points",
+                      ha="right" if left else "left", va="center", fontsize=7.5, color=colour)
+    for library, colour in COLOURS.items():
+        if any(row["library"] == library for row in shown):
+            axes.scatter([], [], color=colour, label=library)
+    axes.legend(loc="lower left")
     axes.set_xscale("log")
-    axes.margins(x=0.12, y=0.1)
+    axes.margins(x=0.16, y=0.1)
     axes.set_xlabel("million pixels a second on one thread (382x288)")
     axes.set_ylabel("PSNR, dB: mean over noise of sigma 10, 25, 50 grey levels")
     axes.set_title(f"Denoisers: quality over speed, {pictures}")
