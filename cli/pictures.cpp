@@ -10,11 +10,11 @@
 
 #include "commands.hpp"
 #include "common.hpp"
+#include "thermedge/correction.hpp"
 #include "thermedge/denoise.hpp"
 #include "thermedge/io/config.hpp"
 #include "thermedge/io/write.hpp"
 #include "thermedge/noise.hpp"
-#include "thermedge/nuc.hpp"
 #include "thermedge/radiometry.hpp"
 #include "thermedge/stable_view.hpp"
 
@@ -152,23 +152,21 @@ int ScaleCommand::run() const {
   return stable ? run_stable(*source, report) : run_algorithm1(*source, report);
 }
 
-// Dead pixels, noise, denoiser: counts in, counts out.
+// Corrections, noise, denoiser: counts in, counts out.
 class CountsDenoiser {
  public:
   CountsDenoiser(const DetectorOptions& options, int threads)
-      : options_(options), runner_(make_runner(threads)), denoiser_(options.denoise) {}
+      : told_sigma_(options.denoise.sigma_counts),
+        runner_(make_runner(threads)),
+        corrector_(options.nuc),
+        denoiser_(options.denoise) {}
 
   Result<ImageView<const std::uint16_t>> run(ImageView<const std::uint16_t> frame) {
     counts_.resize(frame.width(), frame.height());
     working_.resize(frame.width(), frame.height());
-    copy_pixels(frame, counts_.view());
     const double measured = estimator_.measure(frame).sigma_counts;
-    if (options_.nuc.dead_pixels) {
-      correct_dead_pixels(counts_, measured, options_.nuc, dead_);
-    }
-    copy_pixels(counts_.view(), working_.view());
-    const double told = options_.denoise.sigma_counts;
-    const double sigma = told > 0 ? told : measured;
+    copy_pixels(corrector_.run(frame, measured, *runner_), working_.view());
+    const double sigma = told_sigma_ > 0 ? told_sigma_ : measured;
     return denoiser_.run_measured(working_, sigma, working_, *runner_).map([&] {
       for (int y = 0; y < frame.height(); ++y) {
         std::transform(
@@ -181,13 +179,13 @@ class CountsDenoiser {
   }
 
  private:
-  DetectorOptions options_;
+  double told_sigma_;
   std::unique_ptr<Runner> runner_;
   NoiseEstimator estimator_;
+  FrameCorrector corrector_;
   Denoiser denoiser_;
   Image<std::uint16_t> counts_;
   Image<float> working_;
-  std::vector<DeadPixel> dead_;
 };
 
 // With the bits that the frame came with.

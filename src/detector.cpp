@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "thermedge/correction.hpp"
 #include "thermedge/measure.hpp"
 
 namespace thermedge {
@@ -47,6 +48,7 @@ struct Detector::Impl {
   explicit Impl(const DetectorOptions& chosen)
       : options(chosen),
         runner(make_runner(chosen.threads)),
+        corrector(chosen.nuc),
         denoiser(chosen.denoise),
         canny(chosen.canny),
         tracer(chosen.contours),
@@ -68,6 +70,7 @@ struct Detector::Impl {
   DetectorOptions options;
   std::unique_ptr<Runner> runner;
   NoiseEstimator noise_estimator;
+  FrameCorrector corrector;
   Denoiser denoiser;
   Canny canny;
   ContourTracer tracer;
@@ -75,7 +78,6 @@ struct Detector::Impl {
   Linker linker;
   Scorer scorer;
 
-  Image<std::uint16_t> corrected;
   Image<std::uint8_t> levels, denoised, edge_map;
   Image<float> working;
   ContourSet contours;
@@ -94,7 +96,7 @@ Status Detector::Impl::detect(ImageView<const std::uint16_t> frame, int bits) {
       .and_then([&] { return connect(); })
       .map([&] {
         const Stopwatch watch(result.ms.measure);
-        measure_edges(corrected, result.noise.sigma_counts, result.edges);
+        measure_edges(result.corrected, result.noise.sigma_counts, result.edges);
       });
 }
 
@@ -120,7 +122,8 @@ void Detector::Impl::begin(int width, int height) {
   result.noise = {};
   result.sigma_counts = 0;
   result.ms = {};
-  result.dead_pixels.clear();
+  result.dead_pixels = {};
+  result.stripes = nullptr;
   result.corrected = {};
   result.levels = {};
   result.denoised = {};
@@ -131,19 +134,16 @@ void Detector::Impl::begin(int width, int height) {
   result.linked = &linked;
 }
 
-// Noise and dead pixels (before the paper's first step).
+// Noise, dead pixels, stripes (before the paper's first step).
 void Detector::Impl::correct(ImageView<const std::uint16_t> frame) {
   {
     const Stopwatch watch(result.ms.noise);
     result.noise = noise_estimator.measure(frame);
   }
   const Stopwatch watch(result.ms.nuc);
-  corrected.resize(frame.width(), frame.height());
-  copy_pixels(frame, corrected.view());
-  if (options.nuc.dead_pixels) {
-    correct_dead_pixels(corrected, result.noise.sigma_counts, options.nuc, result.dead_pixels);
-  }
-  result.corrected = corrected;
+  result.corrected = corrector.run(frame, result.noise.sigma_counts, *runner);
+  result.dead_pixels = corrector.dead_pixels();
+  result.stripes = &corrector.stripes();
 }
 
 // Algorithm 1. 8-bit pictures are grey levels already.
@@ -155,7 +155,7 @@ Status Detector::Impl::scale(int bits) {
     copy_pixels(result.corrected, levels.view());
     return {};
   }
-  return scale_to_8bit(corrected, options.scale, levels);
+  return scale_to_8bit(result.corrected, options.scale, levels);
 }
 
 // Section 3: the noise in grey levels is the noise in counts times the gain.

@@ -1,4 +1,5 @@
 // Which options of the detector suit a recording.
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
@@ -12,7 +13,8 @@ constexpr double kMostClipped = 0.02;
 constexpr double kCoarsestLevelSigmas = 2;  // a coarser level hides what noise leaves
 constexpr double kFinestLevelSigmas = 0.25;
 constexpr double kSigmaTolerance = 0.05;
-constexpr double kManyPassing = 2e-4;  // of the pixels
+constexpr double kStripesToRemove = 0.2;  // in units of the noise; edges alone look like an eighth
+constexpr double kManyPassing = 2e-4;     // of the pixels
 constexpr int kPaperWidth = 382;
 constexpr int kPaperHeight = 288;
 
@@ -75,6 +77,12 @@ std::vector<SuggestedOption> suggest_options(const RecordingReport& report) {
     options.push_back({"nuc.dead_pixel_sigmas", shortest(2 * defaults.nuc.dead_pixel_sigmas),
                        number(report.passing_dead_pixels, 0) +
                            " pixels a frame are taken for dead that soon recover"});
+  }
+  const double stripes = std::max(report.column_sigma_counts, report.row_sigma_counts);
+  if (stripes > kStripesToRemove * report.sigma_counts) {
+    options.push_back({"nuc.stripes", "true",
+                       "columns or rows are offset by " + number(stripes, 1) +
+                           " counts, which come out as edges"});
   }
   if (report.container_bits == 16) {
     suggest_gain(report, options);

@@ -4,8 +4,8 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string_view>
-#include <vector>
 
 #include "thermedge/contours.hpp"
 #include "thermedge/edges.hpp"
@@ -16,6 +16,7 @@
 #include "thermedge/options.hpp"
 #include "thermedge/parallel.hpp"
 #include "thermedge/result.hpp"
+#include "thermedge/stripes.hpp"
 
 namespace thermedge {
 
@@ -47,7 +48,8 @@ struct Detection {
   EdgeSet edges;
   StageTimes ms;
   // Intermediate pictures and sets, for looking at each step; empty where a step did not run.
-  std::vector<DeadPixel> dead_pixels;
+  std::span<const DeadPixel> dead_pixels;
+  const StripeOffsets* stripes = nullptr;    // that were removed
   ImageView<const std::uint16_t> corrected;  // counts after nuc
   ImageView<const std::uint8_t> levels;      // Algorithm 1
   ImageView<const std::uint8_t> denoised;    // what Canny saw

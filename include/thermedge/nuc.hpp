@@ -13,6 +13,7 @@ struct NucOptions {
   // How far a pixel must lie outside the range of its neighbours to count as dead, in units of the
   // noise, > 0. Smaller finds weaker ones and, below about 4, takes noise for dead pixels.
   double dead_pixel_sigmas = 6;
+  bool stripes = false;  // remove the fixed offsets of columns and rows (stripes.hpp)
 };
 
 struct DeadPixel {

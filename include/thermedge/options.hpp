@@ -80,6 +80,7 @@ void visit_options(O& o, V&& v) {
   v("dead_pixels", o.dead_pixels, Bounds{0, 1}, "replace dead pixels by their neighbours' median");
   v("dead_pixel_sigmas", o.dead_pixel_sigmas, Bounds{1, 1000},
     "how far outside its neighbours' range a pixel is dead, in sigma");
+  v("stripes", o.stripes, Bounds{0, 1}, "remove the fixed offsets of columns and rows");
 }
 
 template <OptionsOf<ScaleOptions> O, class V>

@@ -70,6 +70,7 @@ class AllocationOf : public testing::TestWithParam<std::tuple<DenoiseMethod, int
 TEST_P(AllocationOf, ADetectorIsNoneAfterTheSecondFrame) {
   DetectorOptions options;
   std::tie(options.denoise.method, options.threads) = GetParam();
+  options.nuc.stripes = true;
   options.contours.min_component_px = 0;  // as many curves as there can be
   options.contours.min_length_px = 2;
   options.scoring.keep_edges = 0;

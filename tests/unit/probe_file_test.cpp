@@ -57,6 +57,7 @@ RecordingReport report_with_every_suggestion() {
   report.sigma_counts = 9.64;
   report.frame_sigma_counts = 8;
   report.passing_dead_pixels = 30;
+  report.row_sigma_counts = 2.1;
   report.clipping = {{0.5, 0.6}, {0.2, 0.3}, {0.1, 0.021}, {0.05, 0.001}, {0.02, 0}};
   report.suggested = suggest_options(report);
   return report;
@@ -64,7 +65,7 @@ RecordingReport report_with_every_suggestion() {
 
 TEST(ProbeFile, SuggestionsAreTakenByTheDetector) {
   const auto report = report_with_every_suggestion();
-  ASSERT_EQ(report.suggested.size(), 4U);
+  ASSERT_EQ(report.suggested.size(), 5U);
   DetectorOptions options;
   const Status status = parse_config(suggested_toml(report), "probe.toml", options);
   ASSERT_TRUE(status) << status.error().message;
@@ -72,6 +73,7 @@ TEST(ProbeFile, SuggestionsAreTakenByTheDetector) {
   EXPECT_EQ(options.denoise.sigma_counts, 9.6);
   EXPECT_EQ(options.nuc.dead_pixel_sigmas, 12);
   EXPECT_EQ(options.contours.min_component_px, 21);
+  EXPECT_TRUE(options.nuc.stripes);
   EXPECT_TRUE(check_options(options));
   DetectorOptions set;
   for (const SuggestedOption& option : report.suggested) {
