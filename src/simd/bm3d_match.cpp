@@ -81,11 +81,11 @@ HWY_INLINE std::uint64_t lanes_of(Mask mask) {
 }
 
 // Sums of absolute differences over the cells of the reference blocks that begin at row `y`, for
-// all candidates of one dy.
-void sum_cells(const Search& search, int y, std::span<const SearchPattern::Candidate> candidates,
-               ImageView<std::uint16_t> cells) {
+// all candidates of one dy (of which there may be none).
+void sum_cells(const Search& search, int y, int dy, ImageView<std::uint16_t> cells) {
   const U16 d;
   const I16 di;
+  const auto candidates = search.pattern.row(dy);
   const ImageView<const std::int16_t> phases = search.guide.phases();
   const std::ptrdiff_t stride = phases.stride();
   const auto offset_of = [&](int x) { return (x & (kCellPx - 1)) * stride + (x >> 2); };
@@ -93,7 +93,7 @@ void sum_cells(const Search& search, int y, std::span<const SearchPattern::Candi
   for (int lane = 0; lane <= search.lanes(); lane += kLanes) {
     const int column = search.guide.margin() + lane;
     const std::int16_t* reference = phases.row(y * kCellPx) + column;
-    const std::int16_t* candidate = phases.row((y + candidates[0].dy) * kCellPx) + column;
+    const std::int16_t* candidate = phases.row((y + dy) * kCellPx) + column;
     hn::Vec<I16> pixels[kCellPixels];
     HWY_UNROLL(16)
     for (int i = 0; i < kCellPixels; ++i) {
@@ -131,7 +131,7 @@ void begin_pairs(const Search& search, MatchScratch& scratch) {
       continue;
     }
     const auto candidates = pattern.row(dy);
-    sum_cells(search, search.row.y, candidates, scratch.cells);
+    sum_cells(search, search.row.y, dy, scratch.cells);
     for (int k = 0; k < static_cast<int>(candidates.size()); ++k) {
       for (int x = 0; x < search.lanes(); x += kLanes) {
         hn::Store(sum_of_two(scratch.cells.row(k) + x), U16(),
@@ -177,7 +177,7 @@ void find_nearest(const Search& search, MatchScratch& scratch) {
       continue;
     }
     const auto candidates = pattern.row(dy);
-    sum_cells(search, search.row.y + kCellPx, candidates, scratch.cells);
+    sum_cells(search, search.row.y + kCellPx, dy, scratch.cells);
     for (int k = 0; k < static_cast<int>(candidates.size()); ++k) {
       const SearchPattern::Candidate candidate = candidates[static_cast<std::size_t>(k)];
       const int index = pattern.row_begin(dy) + k;
