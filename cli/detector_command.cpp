@@ -52,8 +52,8 @@ Result<DetectorOptions> DetectorCommand::options() const {
   if (common.threads != 0) {
     options.threads = common.threads;
   }
-  options.scoring.keep_edges = keep.value_or(options.scoring.keep_edges);
-  options.scoring.max_edgels = max_edgels.value_or(options.scoring.max_edgels);
+  options.selection.keep_edges = keep.value_or(options.selection.keep_edges);
+  options.selection.max_edgels = max_edgels.value_or(options.selection.max_edgels);
   if (denoise) {
     if (Status status = io::apply_setting("denoise.method=" + *denoise, options); !status) {
       return tl::unexpected(status.error());

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
+#include "hysteresis.hpp"
 #include "simd/gradient.hpp"
 #include "simd/suppress.hpp"
 #include "thermedge/options.hpp"
@@ -12,7 +12,6 @@ namespace thermedge {
 namespace {
 
 constexpr int kBandRows = 32;
-constexpr std::uint8_t kEdge = 255;  // an edge pixel, once it is known to belong to a strong one
 
 // Adds the magnitudes of a row to a histogram from 0 to the largest one; `bins_per_unit` is the
 // number of bins over the largest magnitude. Four tables, because equal neighbours would wait for
@@ -25,11 +24,6 @@ void count_row(const float* magnitude, int width, double bins_per_unit,
     const int bin = static_cast<int>(static_cast<double>(magnitude[x]) * bins_per_unit);
     ++tables[static_cast<std::size_t>(x % 4)][static_cast<std::size_t>(std::min(bin, kLastBin))];
   }
-}
-
-std::uint8_t* find_strong(std::uint8_t* begin, std::uint8_t* end) {
-  void* found = std::memchr(begin, detail::kStrongEdge, static_cast<std::size_t>(end - begin));
-  return found != nullptr ? static_cast<std::uint8_t*>(found) : end;
 }
 
 }  // namespace
@@ -55,7 +49,7 @@ Result<CannyResult> Canny::run(ImageView<const float> in, Runner& runner) {
   }
   const Thresholds thresholds = choose_thresholds(largest, runner);
   for_each_band(runner, [&](Band&, int begin, int end) { suppress(begin, end, thresholds); });
-  connect();
+  detail::apply_hysteresis(edges_.view(), 1, group_);
   return CannyResult{gx_, gy_, magnitude_, edges_, thresholds.low, thresholds.high};
 }
 
@@ -66,7 +60,7 @@ void Canny::prepare(int width, int height) {
   magnitude_.resize(width, height);
   edges_.resize(width, height);
   bands_.resize(static_cast<std::size_t>((height + kBandRows - 1) / kBandRows));
-  stack_.reserve(edges_.size());  // every pixel goes there once at most
+  group_.reserve(edges_.size());
 }
 
 // task(band, y_begin, y_end): the bands depend on the height alone, not on the Runner.
@@ -154,49 +148,6 @@ void Canny::suppress(int y_begin, int y_end, Thresholds thresholds) {
     detail::suppress_row(row, width - 2, thresholds.low, thresholds.high, classes + 1);
     classes[0] = detail::kNoEdge;
     classes[width - 1] = detail::kNoEdge;
-  }
-}
-
-// Hysteresis: keeps the 8-connected groups of pixels that hold a strong one.
-void Canny::connect() {
-  std::uint8_t* const pixels = edges_.row(0);
-  for (int y = 1; y + 1 < edges_.height(); ++y) {
-    std::uint8_t* const row_end = edges_.row(y) + edges_.width();
-    std::uint8_t* seed = find_strong(edges_.row(y), row_end);
-    while (seed != row_end) {
-      keep_group(seed - pixels);
-      seed = find_strong(seed, row_end);
-    }
-  }
-  for (int y = 1; y + 1 < edges_.height(); ++y) {
-    std::uint8_t* const row = edges_.row(y);
-    std::transform(row, row + edges_.width(), row, [](std::uint8_t value) {
-      return value == kEdge ? kEdge : std::uint8_t{detail::kNoEdge};
-    });
-  }
-}
-
-// Marks all that is connected with `seed` (an offset from the first pixel) as edge. Pixels of the
-// border have no class, so all neighbours that are looked at lie inside.
-void Canny::keep_group(std::ptrdiff_t seed) {
-  const std::ptrdiff_t stride = edges_.stride();
-  const std::ptrdiff_t neighbours[] = {-stride - 1, -stride,    -stride + 1, -1,
-                                       1,           stride - 1, stride,      stride + 1};
-  std::uint8_t* const pixels = edges_.row(0);
-  const auto keep = [&](std::ptrdiff_t pixel) {
-    pixels[pixel] = kEdge;
-    stack_.push_back(pixel);
-  };
-  keep(seed);
-  while (!stack_.empty()) {
-    const std::ptrdiff_t pixel = stack_.back();
-    stack_.pop_back();
-    for (const std::ptrdiff_t step : neighbours) {
-      const std::uint8_t found = pixels[pixel + step];
-      if (found == detail::kWeakEdge || found == detail::kStrongEdge) {
-        keep(pixel + step);
-      }
-    }
   }
 }
 

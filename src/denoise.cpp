@@ -5,6 +5,7 @@
 #include <new>
 #include <string>
 
+#include "denoise_bilateral.hpp"
 #include "denoise_bm3d.hpp"
 #include "denoise_frame.hpp"
 #include "denoise_gaussian.hpp"
@@ -75,6 +76,18 @@ struct Denoiser::Impl {
       : options(chosen), options_status(check_denoise_options(chosen)) {}
 
   Status run(ImageView<const float> in, double sigma, ImageView<float> out, Runner& runner) {
+    return run_method(in, sigma * options.strength, out, runner).and_then([&]() -> Status {
+      if (options.ripple.range_sigmas > 0) {
+        if (Status status = check_sigma(sigma); !status) {
+          return status;
+        }
+        ripple.run(out, sigma, out, runner);
+      }
+      return {};
+    });
+  }
+
+  Status run_method(ImageView<const float> in, double sigma, ImageView<float> out, Runner& runner) {
     switch (options.method) {
       case DenoiseMethod::kNone:
         copy_pixels(in, out);
@@ -116,9 +129,10 @@ struct Denoiser::Impl {
   Status copy_clean(ImageView<const float> in, ImageView<float> out) {
     if (options.method == DenoiseMethod::kNlm) {
       nlm.prepare(in.width(), in.height());
-    } else {
+    } else if (options.method == DenoiseMethod::kBm3d) {
       bm3d.prepare(in.width(), in.height());
     }
+    ripple.prepare(in.width(), in.height());
     copy_pixels(in, out);
     return {};
   }
@@ -146,6 +160,7 @@ struct Denoiser::Impl {
   detail::GaussianFilter gaussian{options.gaussian};
   detail::NonLocalMeans nlm{options.nlm};
   detail::Bm3d bm3d{detail::bm3d_settings(options.bm3d)};
+  detail::BilateralFilter ripple{options.ripple};
 };
 
 Denoiser::Denoiser(const DenoiseOptions& options) : impl_(std::make_unique<Impl>(options)) {}
@@ -161,7 +176,9 @@ Status Denoiser::run(ImageView<const float> in, double sigma, ImageView<float> o
 Status Denoiser::run_measured(ImageView<const float> in, double sigma, ImageView<float> out,
                               Runner& runner) {
   const DenoiseMethod method = impl_->options.method;
-  if (sigma == 0 && (method == DenoiseMethod::kNlm || method == DenoiseMethod::kBm3d)) {
+  const bool needs_noise = method == DenoiseMethod::kNlm || method == DenoiseMethod::kBm3d ||
+                           impl_->options.ripple.range_sigmas > 0;
+  if (sigma == 0 && needs_noise) {
     return impl_->guarded(in, out, [&] { return impl_->copy_clean(in, out); });
   }
   return run(in, sigma, out, runner);

@@ -6,12 +6,16 @@
 #include <new>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "thermedge/correction.hpp"
 #include "thermedge/measure.hpp"
 
 namespace thermedge {
 namespace {
+
+// What the removal of stripes leaves of them, in units of the noise (docs/tuning.md).
+constexpr double kStripesLeft = 0.12;
 
 using Clock = std::chrono::steady_clock;
 
@@ -51,13 +55,21 @@ struct Detector::Impl {
         corrector(chosen.nuc),
         denoiser(chosen.denoise),
         canny(chosen.canny),
+        oriented(chosen.oriented),
         tracer(chosen.contours),
+        graph(chosen.graph),
         corner_finder(chosen.corners),
         linker(chosen.linking),
-        scorer(chosen.scoring) {}
+        scorer(chosen.scoring),
+        selector(chosen.selection),
+        budgets({chosen.selection.keep_edges, chosen.selection.max_edgels}) {}
 
   Status detect(ImageView<const std::uint16_t> frame, int bits);
   Status trace(ImageView<const std::uint8_t> edge_map);
+
+  Status detect_oriented(int bits);
+  double least_noise();
+  Status denoise_counts(int bits);
 
   void begin(int width, int height);
   void correct(ImageView<const std::uint16_t> frame);
@@ -73,13 +85,20 @@ struct Detector::Impl {
   FrameCorrector corrector;
   Denoiser denoiser;
   Canny canny;
+  OrientedEdges oriented;
   ContourTracer tracer;
+  GraphTracer graph;
   CornerFinder corner_finder;
   Linker linker;
   Scorer scorer;
+  EdgeSelector selector;
+  EdgeSelector budgets;  // the same without tests, which need a frame
 
   Image<std::uint8_t> levels, denoised, edge_map;
   Image<float> working;
+  Image<std::uint16_t> rounded;       // denoised counts
+  OrientedResult oriented_found;      // views of what `oriented` holds
+  std::vector<std::uint16_t> sample;  // of the counts
   ContourSet contours;
   LinkedContours linked;
   CornerSet corners;
@@ -90,14 +109,99 @@ struct Detector::Impl {
 Status Detector::Impl::detect(ImageView<const std::uint16_t> frame, int bits) {
   begin(frame.width(), frame.height());
   correct(frame);
+  if (options.edges == EdgeMethod::kOriented) {
+    return detect_oriented(bits);
+  }
   return scale(bits)
       .and_then([&] { return denoise(bits); })
       .and_then([&] { return find_edge_pixels(); })
       .and_then([&] { return connect(); })
-      .map([&] {
+      .and_then([&] {
         const Stopwatch watch(result.ms.measure);
         measure_edges(result.corrected, result.noise.sigma_counts, result.edges);
+        return selector.run(result.edges);
       });
+}
+
+// On counts, in units of the noise.
+Status Detector::Impl::detect_oriented(int bits) {
+  const double sigma =
+      options.denoise.sigma_counts > 0 ? options.denoise.sigma_counts : result.noise.sigma_counts;
+  const double floor = least_noise();
+  result.sigma_counts = sigma > floor / 2 ? sigma : 0;  // below, the frame is clean
+  const double unit = std::max(sigma, floor);
+  return scale(bits)
+      .and_then([&] { return denoise_counts(bits); })
+      .and_then([&] {
+        const Stopwatch watch(result.ms.canny);
+        return oriented.run(working, unit, *runner).map([&](const OrientedResult& edges) {
+          oriented_found = edges;
+          result.edge_map = edges.edges;
+          result.canny_low = options.oriented.low;
+          result.canny_high = options.oriented.high;
+        });
+      })
+      .and_then([&] {
+        const Stopwatch watch(result.ms.contours);
+        return graph.run(oriented_found.edges, oriented_found.strength, linked);
+      })
+      .and_then([&] {
+        const Stopwatch watch(result.ms.corners);
+        return find_corners();
+      })
+      .and_then([&] {
+        const Stopwatch watch(result.ms.scoring);
+        return scorer.run(linked, corners, oriented_found.prominence, result.edges);
+      })
+      .and_then([&] {
+        const Stopwatch watch(result.ms.measure);
+        const bool striped = !result.stripes->columns.empty() || !result.stripes->rows.empty();
+        measure_edges(result.corrected, unit, {striped ? kStripesLeft : 0}, result.edges);
+        return selector.run(result.edges);
+      });
+}
+
+// The least noise assumed: a share of the range of the counts, of which every 16th pixel tells.
+double Detector::Impl::least_noise() {
+  constexpr int kStep = 4;
+  constexpr double kTail = 0.001;
+  sample.clear();
+  for (int y = 0; y < result.height; y += kStep) {
+    for (int x = 0; x < result.width; x += kStep) {
+      sample.push_back(result.corrected(x, y));
+    }
+  }
+  const auto quantile = [&](double share) {
+    const auto at = sample.begin() +
+                    static_cast<std::ptrdiff_t>(share * static_cast<double>(sample.size() - 1));
+    std::nth_element(sample.begin(), at, sample.end());
+    return static_cast<double>(*at);
+  };
+  constexpr double kLeast = 1e-3;  // of a frame without any contrast, counts
+  return std::max(options.oriented.noise_floor * (quantile(1 - kTail) - quantile(kTail)), kLeast);
+}
+
+Status Detector::Impl::denoise_counts(int bits) {
+  const Stopwatch watch(result.ms.denoise);
+  working.resize(result.width, result.height);
+  copy_pixels(result.corrected, working.view());
+  if (Status status = denoiser.run_measured(working, result.sigma_counts, working, *runner);
+      !status) {
+    return status;
+  }
+  rounded.resize(result.width, result.height);
+  denoised.resize(result.width, result.height);
+  for (int y = 0; y < result.height; ++y) {
+    std::transform(working.row(y), working.row(y) + result.width, rounded.row(y), [](float value) {
+      return static_cast<std::uint16_t>(std::clamp(value, 0.0F, 65535.0F) + 0.5F);
+    });
+  }
+  result.denoised = denoised;
+  if (bits == 8) {
+    copy_pixels(rounded.view(), denoised.view());
+    return {};
+  }
+  return scale_to_8bit(rounded, options.scale, denoised);
 }
 
 Status Detector::Impl::trace(ImageView<const std::uint8_t> map) {
@@ -108,11 +212,12 @@ Status Detector::Impl::trace(ImageView<const std::uint8_t> map) {
                    [](std::uint8_t value) { return value != 0 ? std::uint8_t{255} : value; });
   }
   result.edge_map = edge_map;
-  return connect().map([&] {
+  return connect().and_then([&] {
     set_normals_from_shape(result.edges);
     for (Edge& edge : result.edges.edges) {
       edge.contrast_counts = edge.z = edge.log10_nfa = std::numeric_limits<double>::quiet_NaN();
     }
+    return budgets.run(result.edges);
   });
 }
 
@@ -130,7 +235,7 @@ void Detector::Impl::begin(int width, int height) {
   result.edge_map = {};
   result.canny_low = 0;
   result.canny_high = 0;
-  result.contours = &contours;
+  result.contours = options.edges == EdgeMethod::kOriented ? &linked.contours : &contours;
   result.linked = &linked;
 }
 
@@ -186,19 +291,27 @@ Status Detector::Impl::find_edge_pixels() {
   });
 }
 
-// Algorithms 3 to 6: contours, links, corners, scores. Corners are found on the linked curves;
-// those of the curves before linking would be thrown away unused.
+// Algorithms 3 to 6: contours, links, corners, scores; with oriented kernels, from the map alone.
+// Corners are found on the linked curves; those of the curves before linking would be thrown away
+// unused.
 Status Detector::Impl::connect() {
   const auto timed = [](double& stage_ms, auto&& stage) {
     const Stopwatch watch(stage_ms);
     return stage();
   };
   StageTimes& ms = result.ms;
-  return timed(ms.contours, [&] { return tracer.run(result.edge_map, contours); })
-      .and_then([&] {
-        return timed(ms.linking,
-                     [&] { return linker.run(contours, result.width, result.height, linked); });
-      })
+  const auto walk = [&] {
+    return timed(ms.contours, [&] { return tracer.run(result.edge_map, contours); }).and_then([&] {
+      return timed(ms.linking,
+                   [&] { return linker.run(contours, result.width, result.height, linked); });
+    });
+  };
+  const auto follow_graph = [&] {
+    working.resize(result.width, result.height);
+    fill_pixels(working.view(), 1.0F);  // all pixels are equally strong
+    return timed(ms.contours, [&] { return graph.run(result.edge_map, working, linked); });
+  };
+  return (options.edges == EdgeMethod::kOriented ? follow_graph() : walk())
       .and_then([&] { return timed(ms.corners, [&] { return find_corners(); }); })
       .and_then([&] {
         return timed(ms.scoring, [&] {

@@ -152,12 +152,45 @@ void measure_edgels(ImageView<const std::uint16_t> frame, double sigma_counts, R
   }
 }
 
-double z_of(const Contrast& contrast, double sigma_counts) {
+// `more_variance`: of the contrast, in units of the noise, beside that of its samples.
+double z_of(const Contrast& contrast, double sigma_counts, double more_variance) {
   if (contrast.counts == 0) {
     return 0;
   }
-  return sigma_counts > 0 ? contrast.counts / sigma_counts * std::sqrt(contrast.samples / 2.0)
-                          : std::numeric_limits<double>::infinity();
+  return sigma_counts > 0
+             ? contrast.counts / (sigma_counts * std::sqrt(2.0 / contrast.samples + more_variance))
+             : std::numeric_limits<double>::infinity();
+}
+
+// What the slope of the scene around an edge contributes to its contrast, counts.
+double contrast_of_slope(ImageView<const std::uint16_t> frame, const Edgels& edgels, Range range) {
+  constexpr double kFarPx = 16;
+  constexpr double kMeanPx = 2.5;  // of the distances at which contrast is measured
+  double sum = 0;
+  int samples = 0;
+  for (std::size_t i = range.first; i < range.first + range.count; ++i) {
+    if (const auto step = difference(frame, edgels, i, kFarPx)) {
+      sum += *step;
+      ++samples;
+    }
+  }
+  return samples > 0 ? sum / samples * kMeanPx / kFarPx : 0;
+}
+
+// 1 for an edge along an axis, next to 0 for one at 45 degrees.
+double alignment(const Edgels& edgels, Range range) {
+  const auto power_16 = [](float value) {
+    double power = value;
+    for (int i = 0; i < 4; ++i) {
+      power *= power;
+    }
+    return power;
+  };
+  double sum = 0;
+  for (std::size_t i = range.first; i < range.first + range.count; ++i) {
+    sum += power_16(std::max(std::abs(edgels.nx[i]), std::abs(edgels.ny[i])));
+  }
+  return sum / range.count;
 }
 
 // log10 of P(|Z| > z) for a standard normal Z. Far out, where the probability itself would
@@ -184,8 +217,13 @@ double number_of_tests(const EdgeSet& edges) {
 
 }  // namespace
 
-void measure_edges(ImageView<const std::uint16_t> frame, double sigma_counts, EdgeSet& edges) {
-  const double log10_tests = std::log10(number_of_tests(edges));
+namespace {
+
+// significance(contrast, edge) is the z of an edge.
+template <class Significance>
+void measure_all(ImageView<const std::uint16_t> frame, double sigma_counts, double tests,
+                 EdgeSet& edges, Significance&& significance) {
+  const double log10_tests = std::log10(tests);
   for (Edge& edge : edges.edges) {
     set_normals(edges.edgels, edge);
     Contrast contrast = contrast_across(frame, edges.edgels, edge.edgels);
@@ -195,9 +233,29 @@ void measure_edges(ImageView<const std::uint16_t> frame, double sigma_counts, Ed
     }
     measure_edgels(frame, sigma_counts, edge.edgels, edges.edgels);
     edge.contrast_counts = contrast.counts;
-    edge.z = z_of(contrast, sigma_counts);
+    edge.z = significance(contrast, edge);
     edge.log10_nfa = log10_tests + log10_two_sided_tail(edge.z);
   }
+}
+
+}  // namespace
+
+void measure_edges(ImageView<const std::uint16_t> frame, double sigma_counts, EdgeSet& edges) {
+  measure_all(
+      frame, sigma_counts, number_of_tests(edges), edges,
+      [&](const Contrast& contrast, const Edge&) { return z_of(contrast, sigma_counts, 0); });
+}
+
+void measure_edges(ImageView<const std::uint16_t> frame, double sigma_counts,
+                   const SignificanceOptions& options, EdgeSet& edges) {
+  constexpr double kPixelsPerTest = 64;
+  const double tests = std::max(static_cast<double>(frame.size()) / kPixelsPerTest, 1.0);
+  measure_all(frame, sigma_counts, tests, edges, [&](Contrast contrast, const Edge& edge) {
+    const double slope = contrast_of_slope(frame, edges.edgels, edge.edgels);
+    contrast.counts = std::clamp(contrast.counts - slope, 0.0, contrast.counts);
+    const double stripes = options.stripe_sigmas * alignment(edges.edgels, edge.edgels);
+    return z_of(contrast, sigma_counts, stripes * stripes);
+  });
 }
 
 void set_normals_from_shape(EdgeSet& edges) {

@@ -25,6 +25,15 @@ std::string out_of_range(const std::string& name, double value, Bounds bounds) {
 DetectorOptions preset_options(Preset preset) {
   DetectorOptions options;  // the defaults of the structs are those of the paper
   options.preset = preset;
+  if (preset == Preset::kRobust) {
+    options.edges = EdgeMethod::kOriented;
+    options.nuc.stripes = true;
+    options.denoise.strength = 1.2;
+    options.denoise.ripple.range_sigmas = 0.2;
+    options.selection.keep_edges = 0;
+    options.selection.min_score = 0.75;
+    options.selection.max_false_alarms = 0.1;
+  }
   return options;
 }
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <limits>
 #include <tuple>
 
 #include "thermedge/options.hpp"
@@ -88,14 +87,49 @@ Status Scorer::run(const LinkedContours& linked, const CornerSet& corners, int w
   prepare(linked, corners, edges);
   collect_connections(linked);
   score_contours(linked, corners, width, height);
+  fill(linked, corners, edges);
+  return {};
+}
+
+Status Scorer::run(const LinkedContours& linked, const CornerSet& corners,
+                   ImageView<const float> prominence, EdgeSet& edges) {
+  edges.clear();
+  if (Status status = check_ranges(options_, "scoring."); !status) {
+    return status;
+  }
+  assert(corners.ranges.size() == linked.contours.contours.size());
+  prepare(linked, corners, edges);
+  collect_connections(linked);
+  score_contours(linked, corners, prominence.width(), prominence.height());
+  score_by_prominence(linked.contours, prominence);
+  fill(linked, corners, edges);
+  for (Edge& edge : edges.edges) {
+    edge.score = -edge.score;
+  }
+  return {};
+}
+
+void Scorer::score_by_prominence(const ContourSet& contours, ImageView<const float> prominence) {
+  constexpr double kLeastMean = 0.02;  // so that the logarithm is finite
+  for (Ranked& ranked : order_) {
+    const auto pixels = contours.pixels(contours.contours[ranked.contour]);
+    double sum = 0;
+    for (const Pixel pixel : pixels) {
+      sum += static_cast<double>(prominence(pixel.x, pixel.y));
+    }
+    const auto count = static_cast<double>(pixels.size());
+    ranked.badness = -std::log(std::max(sum / count, kLeastMean)) - 0.25 * std::log(count);
+  }
+}
+
+// Fills `edges` in the order of their rank.
+void Scorer::fill(const LinkedContours& linked, const CornerSet& corners, EdgeSet& edges) {
   rank_contours();
   for (std::size_t rank = 0; rank < order_.size(); ++rank) {
     append_edge(linked, corners, rank, edges);
   }
   set_connections(edges);
   edges.junctions.assign(linked.contours.junctions.begin(), linked.contours.junctions.end());
-  keep_best(edges);
-  return {};
 }
 
 void Scorer::prepare(const LinkedContours& linked, const CornerSet& corners, EdgeSet& edges) {
@@ -142,13 +176,14 @@ void Scorer::score_contours(const LinkedContours& linked, const CornerSet& corne
       terms.connected_points += linked.contours.contours[connection->to].points.count;
     }
     terms.loop_line_ratio = contour.closed ? options_.loop_line_ratio : 1;
-    order_.push_back({edge_score(terms), contour.points.count, i});
+    const double es = edge_score(terms);
+    order_.push_back({es, es, contour.points.count, i});
   }
 }
 
 void Scorer::rank_contours() {
   std::sort(order_.begin(), order_.end(), [](const Ranked& a, const Ranked& b) {
-    return std::tie(a.score, b.points, a.contour) < std::tie(b.score, a.points, b.contour);
+    return std::tie(a.badness, b.points, a.contour) < std::tie(b.badness, a.points, b.contour);
   });
   rank_of_.resize(order_.size());
   for (std::size_t rank = 0; rank < order_.size(); ++rank) {
@@ -164,7 +199,8 @@ void Scorer::append_edge(const LinkedContours& linked, const CornerSet& corners,
   const auto indices = slice(corners.indices, corners.ranges[ranked.contour]);
   Edge edge;
   edge.id = edge.rank = static_cast<std::int32_t>(rank);
-  edge.score = edge.es = ranked.score;
+  edge.score = ranked.badness;
+  edge.es = ranked.es;
   edge.length_px = arc_length(pixels, contour.closed);
   edge.closed = contour.closed;
   edge.box = bounding_box(pixels);
@@ -188,24 +224,6 @@ void Scorer::set_connections(EdgeSet& edges) {
       edges.connections.push_back(static_cast<std::int32_t>(connection->to));
       ++range.count;
     }
-  }
-}
-
-void Scorer::keep_best(EdgeSet& edges) const {
-  const std::size_t unlimited = std::numeric_limits<std::size_t>::max();
-  const auto limit = [=](int option) {
-    return option > 0 ? static_cast<std::size_t>(option) : unlimited;
-  };
-  const std::size_t most_edges = limit(options_.keep_edges);
-  const std::size_t most_edgels = limit(options_.max_edgels);
-  std::size_t edgels = 0;
-  for (Edge& edge : edges.edges) {
-    edgels += edge.edgels.count;
-    if (edges.kept == most_edges || edgels > most_edgels) {
-      break;
-    }
-    edge.kept = true;
-    ++edges.kept;
   }
 }
 

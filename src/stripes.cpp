@@ -31,7 +31,8 @@ constexpr double kStandOut = 1.5;
 constexpr double kNoPrior = 1e4;
 constexpr double kPrior = 4;
 constexpr double kUsualStripes = 1.0 / 3;
-constexpr int kRounds = 3;  // of: edges from the corrected frame, offsets from what is no edge
+constexpr int kSlopeReach = 40;  // columns to either side whose slopes count
+constexpr int kRounds = 3;       // of: edges from the corrected frame, offsets from what is no edge
 
 std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
@@ -63,6 +64,9 @@ class ColumnOffsets {
   void find_edges(double sigma);
   void mark_edges(std::span<const double> steps, double deviation, int first_part, int parts);
   void find_pairs(double sigma);
+  void find_slopes();
+  void remove_slopes();
+  void number_segments(std::span<const int> jumps);
   void solve(double scale, std::span<const int> jumps, std::span<double> result);
   void find_jumps(double deviation);
   double white_deviation(std::span<const double> profile);
@@ -77,7 +81,7 @@ class ColumnOffsets {
   std::vector<double> steps_;  // of each part
   std::vector<Pair> pairs_;    // of each lag
   std::vector<double> band_;   // of the normal equations, row by row
-  std::vector<double> profile_, offsets_, sorted_, cumulated_;
+  std::vector<double> profile_, offsets_, slopes_, sorted_, cumulated_;
   std::vector<int> jumps_;  // a jump is between a column and the next
   std::vector<int> reach_left_, reach_right_, segment_;
 };
@@ -98,6 +102,7 @@ void ColumnOffsets::prepare(int columns, int rows) {
   band_.resize((kLargestLag + 1) * n);
   profile_.resize(n);
   offsets_.resize(n);
+  slopes_.resize(n);
   sorted_.resize(n);
   cumulated_.resize(n + 1);
   jumps_.reserve(kMostJumps);
@@ -206,17 +211,53 @@ void ColumnOffsets::find_pairs(double sigma) {
   }
 }
 
+// What a smooth scene makes of the differences: the median of the slopes around over the longest
+// lag, those across jumps left out.
+void ColumnOffsets::find_slopes() {
+  number_segments(jumps_);
+  constexpr int kLongest = static_cast<int>(kLags.size()) - 1;
+  const int count = columns_ - kLargestLag;  // pairs of the longest lag
+  for (int x = 0; x < count; ++x) {
+    const int begin = std::max(x - kSlopeReach, 0);
+    const int end = std::min(x + kSlopeReach + 1, count);
+    std::size_t size = 0;
+    for (int i = begin; i < end; ++i) {
+      if (pair(kLongest, i).weight > 0 && segment_[index(i)] == segment_[index(i + kLargestLag)]) {
+        sorted_[size++] = pair(kLongest, i).difference / kLargestLag;
+      }
+    }
+    const auto middle = sorted_.begin() + static_cast<std::ptrdiff_t>(size / 2);
+    std::nth_element(sorted_.begin(), middle, sorted_.begin() + static_cast<std::ptrdiff_t>(size));
+    slopes_[index(x)] = size > 0 ? *middle : x > 0 ? slopes_[index(x - 1)] : 0;
+  }
+}
+
+void ColumnOffsets::remove_slopes() {
+  const int count = columns_ - kLargestLag;
+  for (int i = 0; i < static_cast<int>(kLags.size()); ++i) {
+    const int lag = kLags[index(i)];
+    for (int x = 0; x + lag < columns_; ++x) {
+      const int centre = x + (lag - kLargestLag) / 2;
+      pair(i, x).difference -= lag * slopes_[index(std::clamp(centre, 0, count - 1))];
+    }
+  }
+}
+
+void ColumnOffsets::number_segments(std::span<const int> jumps) {
+  std::fill(segment_.begin(), segment_.end(), 0);
+  for (const int jump : jumps) {
+    for (int x = jump + 1; x < columns_; ++x) {
+      ++segment_[index(x)];
+    }
+  }
+}
+
 // Minimises the sum over pairs of scale * weight * (c(x + lag) - c(x) - difference)^2 and of all
 // c(x)^2; pairs across a jump are left out. Banded Cholesky decomposition.
 void ColumnOffsets::solve(double scale, std::span<const int> jumps, std::span<double> result) {
   constexpr int kWidth = kLargestLag + 1;
   const int n = columns_;
-  std::fill(segment_.begin(), segment_.end(), 0);
-  for (const int jump : jumps) {
-    for (int x = jump + 1; x < n; ++x) {
-      ++segment_[index(x)];
-    }
-  }
+  number_segments(jumps);
   // band[x * kWidth + kLargestLag - l] is the element (x, x - l).
   std::fill(band_.begin(), band_.end(), 0.0);
   std::fill(result.begin(), result.end(), 0.0);
@@ -337,6 +378,12 @@ bool ColumnOffsets::measure(ImageView<const std::uint16_t> counts, double sigma,
       find_edges(sigma);
     }
     find_pairs(sigma);
+    if (round == 0) {
+      solve(kNoPrior, {}, profile_);
+      find_jumps(white_deviation(profile_));
+      find_slopes();
+    }
+    remove_slopes();
     solve(kNoPrior, {}, profile_);
     const double deviation = white_deviation(profile_);
     if (deviation * deviation < kStandOut * of_noise) {

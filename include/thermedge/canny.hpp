@@ -66,14 +66,12 @@ class Canny {
   float find_gradients(int y_begin, int y_end);
   Thresholds choose_thresholds(float largest_magnitude, Runner& runner);
   void suppress(int y_begin, int y_end, Thresholds thresholds);
-  void connect();
-  void keep_group(std::ptrdiff_t seed);
 
   CannyOptions options_;
   std::vector<Band> bands_;
   Image<float> bordered_, gx_, gy_, magnitude_;
   Image<std::uint8_t> edges_;
-  std::vector<std::ptrdiff_t> stack_;  // edge pixels whose neighbours are still to be looked at
+  std::vector<std::ptrdiff_t> group_;  // of connected edge pixels
 };
 
 }  // namespace thermedge

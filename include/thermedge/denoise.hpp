@@ -35,12 +35,22 @@ struct Bm3dOptions {
   bool wiener = true;        // run stage 2 (costs as much as stage 1, gives 0.3 to 0.6 dB)
 };
 
+// A bilateral filter behind the method, far weaker than the noise: it evens out the ripple that
+// block matching leaves in flat areas, and nothing else. Rows first, then columns (Pham & van Vliet
+// 2005).
+struct RippleOptions {
+  double range_sigmas = 0;  // differences evened out, in units of the noise; 0: off
+  double space_px = 6;      // standard deviation of the weights over distance, 1..10
+};
+
 struct DenoiseOptions {
   DenoiseMethod method = DenoiseMethod::kBm3d;
   double sigma_counts = 0;  // noise told to nlm and bm3d, in counts; 0: as measured on the frame
+  double strength = 1;      // nlm and bm3d are told so many times the noise
   GaussianOptions gaussian;
   NlmOptions nlm;
   Bm3dOptions bm3d;
+  RippleOptions ripple;
 };
 
 // Runs the chosen method. Holds the scratch memory of a frame size: after the second frame of one

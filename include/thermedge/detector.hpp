@@ -42,9 +42,10 @@ inline constexpr std::array kStages = {
 // What one frame gave. Everything is owned by the detector and stays valid until its next call.
 struct Detection {
   int width = 0, height = 0;
-  NoiseEstimate noise;                   // zero where the input was an edge map
-  double sigma_counts = 0;               // the noise that the denoiser was told
-  double canny_low = 0, canny_high = 0;  // thresholds used
+  NoiseEstimate noise;      // zero where the input was an edge map
+  double sigma_counts = 0;  // the noise that the denoiser was told
+  double canny_low = 0,
+         canny_high = 0;  // thresholds used; of oriented kernels in units of the noise
   EdgeSet edges;
   StageTimes ms;
   // Intermediate pictures and sets, for looking at each step; empty where a step did not run.
@@ -52,7 +53,7 @@ struct Detection {
   const StripeOffsets* stripes = nullptr;    // that were removed
   ImageView<const std::uint16_t> corrected;  // counts after nuc
   ImageView<const std::uint8_t> levels;      // Algorithm 1
-  ImageView<const std::uint8_t> denoised;    // what Canny saw
+  ImageView<const std::uint8_t> denoised;    // what Canny saw, or a view of what the kernels saw
   ImageView<const std::uint8_t> edge_map;    // what the tracer saw: 255 edge, 0 none
   const ContourSet* contours = nullptr;      // before linking
   const LinkedContours* linked = nullptr;    // after linking

@@ -29,10 +29,19 @@ struct BoundingBox {
   float x_min = 0, y_min = 0, x_max = 0, y_max = 0;  // px, of the edgel positions
 };
 
+// Why an edge was kept or not.
+enum class EdgeVerdict {
+  kKept,           // passed all tests, and is within the budgets
+  kBeyondBudget,   // passed all tests, but there were better ones
+  kWeak,           // its score is too low
+  kInsignificant,  // noise alone makes such edges too often
+};
+
 struct Edge {
   std::int32_t id = 0;    // unique within the frame: the rank
   std::int32_t rank = 0;  // 0 = best
-  double score = 0;       // what the preset ranks by (paper: ES, smaller is better)
+  double score = 0;       // what edges are ranked by: ES, smaller is better; or, of edge pixels
+                          // by oriented kernels, log(mean prominence) + .25 log N, larger is better
   double es = 0;          // edge score of the paper, eqs. 14-18
   double z = 0;           // contrast across the edge on the frame before denoising, in units of
                           // its standard deviation by noise alone
@@ -40,7 +49,8 @@ struct Edge {
   double length_px = 0;   // arc length
   double contrast_counts = 0;  // mean step across the edge, counts
   bool closed = false;
-  bool kept = false;  // within the budgets (keep_edges, max_edgels)
+  bool kept = false;  // verdict == kKept
+  EdgeVerdict verdict = EdgeVerdict::kKept;
   BoundingBox box;
   Range edgels;             // in EdgeSet::edgels
   Range corners;            // in EdgeSet::corners
@@ -49,8 +59,8 @@ struct Edge {
   std::int32_t age = 0;     // frames since the track began
 };
 
-// All edges that passed the preset's tests, best first; those within the budgets come first
-// (`kept`). Flat arrays, reused from frame to frame.
+// All edges, those that passed all tests first, each part best first; those within the budgets come
+// first of all (`kept`). Flat arrays, reused from frame to frame.
 struct EdgeSet {
   Edgels edgels;
   std::vector<Edge> edges;

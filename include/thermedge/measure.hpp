@@ -25,6 +25,19 @@ namespace thermedge {
 // .. 1.44 px. Thread-safe. Cost: about 0.1 us per edgel.
 void measure_edges(ImageView<const std::uint16_t> frame, double sigma_counts, EdgeSet& edges);
 
+struct SignificanceOptions {
+  // What is left of column and row offsets, sigma: edges along an axis may be made of it.
+  double stripe_sigmas = 0;
+};
+
+// The same with a stricter z and NFA, for edges that must prove themselves. A slope of the scene is
+// no edge: the contrast is reduced by what the slope between the counts 16 px to both sides makes
+// of it, to nothing at most. z = contrast / (sigma sqrt(2 / samples + (stripe_sigmas a)^2)), where
+// a is the mean of max(nx^16, ny^16), 1 along an axis. Tests: a sixty-fourth of the frame's pixels,
+// which is how many apertures of 8 x 8 px it holds.
+void measure_edges(ImageView<const std::uint16_t> frame, double sigma_counts,
+                   const SignificanceOptions& options, EdgeSet& edges);
+
 // Normals from the shape alone, for edges that came without a frame: smoothed as above, to the
 // right of the walking direction as seen on the picture.
 void set_normals_from_shape(EdgeSet& edges);

@@ -15,29 +15,43 @@
 #include "thermedge/contours.hpp"
 #include "thermedge/corners.hpp"
 #include "thermedge/denoise.hpp"
+#include "thermedge/edge_graph.hpp"
 #include "thermedge/linking.hpp"
 #include "thermedge/nuc.hpp"
+#include "thermedge/oriented.hpp"
 #include "thermedge/radiometry.hpp"
 #include "thermedge/result.hpp"
 #include "thermedge/scoring.hpp"
+#include "thermedge/selection.hpp"
 #include "thermedge/stable_view.hpp"
 
 namespace thermedge {
 
 // Named sets of defaults. A preset is nothing but options: what it sets can be changed one by one.
-enum class Preset { kPaper };
+enum class Preset { kPaper, kRobust };
+
+// How edge pixels are found, and what follows from it.
+enum class EdgeMethod {
+  kCanny,     // the paper: on the denoised 8-bit view; contours by walking, linked; ranked by ES
+  kOriented,  // on denoised counts, in units of the noise: oriented kernels; contours by a graph of
+              // segments and junctions; ranked by prominence and length, tested on the raw frame
+};
 
 struct DetectorOptions {
   Preset preset = Preset::kPaper;
+  EdgeMethod edges = EdgeMethod::kCanny;
   int threads = 0;  // 0: one per core
   NucOptions nuc;
   ScaleOptions scale;
   DenoiseOptions denoise;
   CannyOptions canny;
+  OrientedOptions oriented;
   ContourOptions contours;
+  GraphOptions graph;
   CornerOptions corners;
   LinkingOptions linking;
   ScoringOptions scoring;
+  SelectionOptions selection;
 };
 
 [[nodiscard]] DetectorOptions preset_options(Preset preset);
@@ -65,7 +79,10 @@ inline constexpr std::array kDenoiseMethods = {
 inline constexpr std::array kBm3dProfiles = {EnumName{Bm3dProfile::kQuality, "quality"},
                                              EnumName{Bm3dProfile::kBalanced, "balanced"},
                                              EnumName{Bm3dProfile::kFast, "fast"}};
-inline constexpr std::array kPresets = {EnumName{Preset::kPaper, "paper"}};
+inline constexpr std::array kPresets = {EnumName{Preset::kPaper, "paper"},
+                                        EnumName{Preset::kRobust, "robust"}};
+inline constexpr std::array kEdgeMethods = {EnumName{EdgeMethod::kCanny, "canny"},
+                                            EnumName{EdgeMethod::kOriented, "oriented"}};
 
 template <class O, class Options>
 concept OptionsOf = std::same_as<std::remove_const_t<O>, Options>;
@@ -118,13 +135,22 @@ void visit_options(O& o, V&& v) {
   v("wiener", o.wiener, Bounds{0, 1}, "run the second stage");
 }
 
+template <OptionsOf<RippleOptions> O, class V>
+void visit_options(O& o, V&& v) {
+  v("range_sigmas", o.range_sigmas, Bounds{0, 10},
+    "bilateral filter behind the method: range, in units of the noise (0: off)");
+  v("space_px", o.space_px, Bounds{1, 10}, "... and its reach, sigma, px");
+}
+
 template <OptionsOf<DenoiseOptions> O, class V>
 void visit_options(O& o, V&& v) {
   v("method", o.method, kDenoiseMethods, "none, gaussian, nlm or bm3d");
   v("sigma_counts", o.sigma_counts, Bounds{0, 65535}, "noise, counts (0: measured on each frame)");
+  v("strength", o.strength, Bounds{0.1, 10}, "nlm and bm3d are told so many times the noise");
   v.group("gaussian", o.gaussian);
   v.group("nlm", o.nlm);
   v.group("bm3d", o.bm3d);
+  v.group("ripple", o.ripple);
 }
 
 template <OptionsOf<CannyOptions> O, class V>
@@ -136,6 +162,19 @@ void visit_options(O& o, V&& v) {
   v("low_over_high", o.low_over_high, Bounds{0, 1}, "low threshold as a share of the high one");
 }
 
+template <OptionsOf<OrientedOptions> O, class V>
+void visit_options(O& o, V&& v) {
+  v("across_px", o.across_px, Bounds{0.5, 2}, "width of the kernels across the edge, sigma, px");
+  v("along_px", o.along_px, Bounds{0.5, 4}, "their length along it, sigma, px");
+  v("low", o.low, Bounds{1e-6, 1000}, "hysteresis, in units of the noise: edges go on above this");
+  v("high", o.high, Bounds{1e-6, 1000}, "... and hold a pixel above this");
+  v("noise_floor", o.noise_floor, Bounds{0, 0.1},
+    "least noise assumed, as a share of the frame's range; half of it is a clean frame");
+  v("fine_px", o.fine_px, Bounds{0, 2}, "width of the fine derivative, sigma, px (0: none)");
+  v("fine_above", o.fine_above, Bounds{1e-6, 1000},
+    "its response, in noise, from which it decides");
+}
+
 template <OptionsOf<ContourOptions> O, class V>
 void visit_options(O& o, V&& v) {
   v("min_component_px", o.min_component_px, Bounds{0, 1e9},
@@ -144,6 +183,15 @@ void visit_options(O& o, V&& v) {
   v("min_length_px", o.min_length_px, Bounds{0, 1e9},
     "shortest curve, px (0: more than (width + height) / 25)");
   v("closed_gap_px", o.closed_gap_px, Bounds{0, 100}, "ends this near close a curve, px");
+}
+
+template <OptionsOf<GraphOptions> O, class V>
+void visit_options(O& o, V&& v) {
+  v("min_length_px", o.min_length_px, Bounds{1, 1e9}, "shortest curve, points");
+  v("max_turn_deg", o.max_turn_deg, Bounds{0, 180},
+    "sharper turns at a junction are ends, degrees");
+  v("closed_gap_px", o.closed_gap_px, Bounds{0, 100}, "ends nearer than this close a curve, px");
+  v("closed_length_gaps", o.closed_length_gaps, Bounds{0, 1000}, "... that is so many gaps long");
 }
 
 template <OptionsOf<CornerOptions> O, class V>
@@ -164,23 +212,35 @@ void visit_options(O& o, V&& v) {
 
 template <OptionsOf<ScoringOptions> O, class V>
 void visit_options(O& o, V&& v) {
+  v("loop_line_ratio", o.loop_line_ratio, Bounds{1e-6, 1e6}, "Phi of a loop (a line has 1)");
+}
+
+template <OptionsOf<SelectionOptions> O, class V>
+void visit_options(O& o, V&& v) {
   v("keep_edges", o.keep_edges, Bounds{0, 1e9}, "ET: the best so many edges are kept (0: all)");
   v("max_edgels", o.max_edgels, Bounds{0, 1e9}, "most edgels in the kept edges (0: any number)");
-  v("loop_line_ratio", o.loop_line_ratio, Bounds{1e-6, 1e6}, "Phi of a loop (a line has 1)");
+  v("min_score", o.min_score, Bounds{-1e9, 1e9},
+    "oriented: edges with a lower score are dropped as weak");
+  v("max_false_alarms", o.max_false_alarms, Bounds{0, 1e9},
+    "false edges expected in a frame of noise; edges above it are dropped (0: no test)");
 }
 
 template <OptionsOf<DetectorOptions> O, class V>
 void visit_options(O& o, V&& v) {
   v("preset", o.preset, kPresets, "where the other options start from");
+  v("edges", o.edges, kEdgeMethods, "how edge pixels are found: canny or oriented");
   v("threads", o.threads, Bounds{0, 1024}, "threads (0: one per core)");
   v.group("nuc", o.nuc);
   v.group("scale", o.scale);
   v.group("denoise", o.denoise);
   v.group("canny", o.canny);
+  v.group("oriented", o.oriented);
   v.group("contours", o.contours);
+  v.group("graph", o.graph);
   v.group("corners", o.corners);
   v.group("linking", o.linking);
   v.group("scoring", o.scoring);
+  v.group("selection", o.selection);
 }
 
 namespace detail {

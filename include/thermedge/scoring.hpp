@@ -9,14 +9,13 @@
 #include "thermedge/contours.hpp"
 #include "thermedge/corners.hpp"
 #include "thermedge/edges.hpp"
+#include "thermedge/image.hpp"
 #include "thermedge/linking.hpp"
 #include "thermedge/result.hpp"
 
 namespace thermedge {
 
 struct ScoringOptions {
-  int keep_edges = 100;          // ET: the best so many edges are kept; 0: all (text: no value)
-  int max_edgels = 0;            // most edgels in the kept edges together; 0: any number
   double loop_line_ratio = 2.0;  // Phi of a loop (a line has 1), > 0 (the text names no value)
 };
 
@@ -38,12 +37,15 @@ struct EdgeScoreTerms {
 // ES = AR W L M^2 / (N^2 N' Phi) (eq. 18): smaller is smoother, longer, better connected.
 [[nodiscard]] double edge_score(const EdgeScoreTerms& terms);
 
-// Scores, ranks and keeps: fills `edges` from linked contours and their corners, best first. Ties:
-// the edge with more points, then the earlier contour. The id of an edge is its rank. Everything
-// but the measured fields (normals, magnitude, contrast, z, NFA) is set; see measure.hpp for those.
+// Scores and ranks: fills `edges` from linked contours and their corners, best first. Ties: the
+// edge with more points, then the earlier contour. The id of an edge is its rank. Everything but
+// the measured fields (normals, magnitude, contrast, z, NFA; measure.hpp) and what is kept
+// (selection.hpp) is set.
+// The score is ES, or, given the prominence of edge pixels in units of the noise, log(mean
+// prominence) + 0.25 log N: larger is better then. Contrast counts more than length, and smoothness
+// not at all: ES prefers edges along the axis of the abscissae, and short ones.
 // Parts to be fitted run from corner to corner; the first and the last point of a curve, closed or
 // not, always count as corners here (P1 = C1, PN = CM), so that M >= 2.
-// The kept edges are the longest row of best ones within both budgets.
 // Paper: section 4, Algorithm 6. One object per thread; allocates on the first frame of a size
 // only.
 class Scorer {
@@ -54,10 +56,13 @@ class Scorer {
   // Errors: an option out of range.
   [[nodiscard]] Status run(const LinkedContours& linked, const CornerSet& corners, int width,
                            int height, EdgeSet& edges);
+  [[nodiscard]] Status run(const LinkedContours& linked, const CornerSet& corners,
+                           ImageView<const float> prominence, EdgeSet& edges);
 
  private:
   struct Ranked {
-    double score;
+    double badness;  // ranked by this: ES or less the score
+    double es;
     std::uint32_t points;
     std::uint32_t contour;
   };
@@ -74,11 +79,12 @@ class Scorer {
   void collect_connections(const LinkedContours& linked);
   void score_contours(const LinkedContours& linked, const CornerSet& corners, double frame_width,
                       double frame_height);
+  void score_by_prominence(const ContourSet& contours, ImageView<const float> prominence);
+  void fill(const LinkedContours& linked, const CornerSet& corners, EdgeSet& edges);
   void rank_contours();
   void append_edge(const LinkedContours& linked, const CornerSet& corners, std::size_t rank,
                    EdgeSet& edges) const;
   void set_connections(EdgeSet& edges);
-  void keep_best(EdgeSet& edges) const;
 
   ScoringOptions options_;
   std::vector<Connection> connections_;  // both directions, ascending, distinct

@@ -3,7 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
+#include <random>
+#include <set>
+#include <utility>
+#include <vector>
 
 #include "support/images.hpp"
 #include "thermedge/io/edges_file.hpp"
@@ -64,6 +70,123 @@ INSTANTIATE_TEST_SUITE_P(All, EveryDenoiser,
                                kDenoiseMethods[static_cast<std::size_t>(method.param)].name);
                          });
 
+TEST(RobustDetector, GivesTheSameEdgesForAllThreadCountsAndSimdTargets) {
+  const auto frame = small_desk(20);
+  DetectorOptions options = preset_options(Preset::kRobust);
+  std::string expected;
+  test::for_each_simd_target([&](const std::string&) {
+    for (const int threads : {1, 2, 5}) {
+      options.threads = threads;
+      Detector one = detector(options);
+      const auto detection = one.detect(frame.counts);
+      ASSERT_TRUE(detection);
+      ASSERT_GT((*detection)->edges.kept, 3U);
+      const std::string found = fingerprint(**detection);
+      expected = expected.empty() ? found : expected;
+      EXPECT_EQ(found, expected) << threads << " threads";
+    }
+  });
+}
+
+// Noise with column and row offsets and dead pixels: one false edge in ten frames is allowed.
+TEST(RobustDetector, FindsNothingInNoise) {
+  std::mt19937 random(11);
+  std::normal_distribution<double> normal;
+  Detector one = detector(preset_options(Preset::kRobust));
+  std::size_t found = 0;
+  constexpr int kFrames = 12;
+  for (int i = 0; i < kFrames; ++i) {
+    const double sigma = std::pow(100, i / (kFrames - 1.0));  // 1 to 100 counts
+    auto frame =
+        test::noise_image<std::uint16_t>(382, 288, 8000, sigma, 40 + static_cast<unsigned>(i));
+    if (i % 2 == 1) {
+      std::vector<double> columns(382);
+      std::generate(columns.begin(), columns.end(), [&] { return sigma / 3 * normal(random); });
+      for (int y = 0; y < frame.height(); ++y) {
+        const double row = sigma / 4 * normal(random);
+        for (int x = 0; x < frame.width(); ++x) {
+          frame(x, y) = static_cast<std::uint16_t>(
+              std::lround(frame(x, y) + row + columns[static_cast<std::size_t>(x)]));
+        }
+      }
+      frame(100, 50) = 0;
+      frame(201, 151) = 16383;
+    }
+    found += (*one.detect(frame))->edges.kept;
+  }
+  EXPECT_LE(found, 1U);
+}
+
+// The pixels of the kept edges.
+std::set<std::pair<float, float>> kept_pixels(const EdgeSet& set) {
+  std::set<std::pair<float, float>> pixels;
+  for (const Edge& edge : set.kept_edges()) {
+    for (std::uint32_t i = 0; i < edge.edgels.count; ++i) {
+      const std::size_t at = edge.edgels.first + i;
+      pixels.emplace(set.edgels.x[at], set.edgels.y[at]);
+    }
+  }
+  return pixels;
+}
+
+// Counts are whole numbers, also when stripes have been removed, so a gain changes the noise a
+// little; an offset changes nothing.
+TEST(RobustDetector, IsBlindToOffsetAndGainOfTheCounts) {
+  const auto frame = small_desk(6);
+  Detector one = detector(preset_options(Preset::kRobust));
+  const auto changed = [&](int gain, int offset) {
+    Image<std::uint16_t> counts(frame.counts.width(), frame.counts.height());
+    for (int y = 0; y < counts.height(); ++y) {
+      for (int x = 0; x < counts.width(); ++x) {
+        counts(x, y) = static_cast<std::uint16_t>(gain * frame.counts(x, y) + offset);
+      }
+    }
+    return kept_pixels((*one.detect(counts))->edges);
+  };
+  const auto first = changed(1, 0);
+  const auto with_offset = changed(1, 1000);
+  const auto with_gain = changed(4, 0);
+  const auto common = [&](const std::set<std::pair<float, float>>& other) {
+    return static_cast<double>(std::count_if(
+        other.begin(), other.end(), [&](const auto& pixel) { return first.contains(pixel); }));
+  };
+  ASSERT_GT(first.size(), 500U);
+  EXPECT_GE(common(with_offset), 0.99 * static_cast<double>(first.size()));
+  EXPECT_GE(common(with_gain), 0.93 * static_cast<double>(first.size()));
+}
+
+TEST(RobustDetector, TakesEveryFrameFromEightPixelsUp) {
+  Detector one = detector(preset_options(Preset::kRobust));
+  for (int height = 8; height <= 26; height += 3) {
+    for (int width = 8; width <= 26; ++width) {
+      const auto frame = test::noise_image<std::uint16_t>(width, height, 3000, 100, 5);
+      const auto detection = one.detect(frame);
+      ASSERT_TRUE(detection) << width << "x" << height << ": " << detection.error().message;
+    }
+  }
+}
+
+TEST(RobustDetector, SaysWhyEdgesWereDropped) {
+  const auto frame = small_desk(20);
+  DetectorOptions options = preset_options(Preset::kRobust);
+  options.selection.keep_edges = 3;
+  options.selection.min_score = 1.5;
+  options.selection.max_false_alarms = 1e-6;
+  Detector one = detector(options);
+  const EdgeSet& set = (*one.detect(frame.counts))->edges;
+  ASSERT_EQ(set.kept, 3U);
+  for (std::size_t i = 0; i < set.edges.size(); ++i) {
+    const Edge& edge = set.edges[i];
+    const bool weak = edge.score < 1.5;
+    const bool insignificant = edge.log10_nfa > -6;
+    EXPECT_EQ(edge.verdict, i < 3           ? EdgeVerdict::kKept
+                            : weak          ? EdgeVerdict::kWeak
+                            : insignificant ? EdgeVerdict::kInsignificant
+                                            : EdgeVerdict::kBeyondBudget);
+    EXPECT_EQ(edge.kept, i < 3);
+  }
+}
+
 TEST(Detector, GivesTheSameForAFrameAgain) {
   const auto frame = small_desk(6);
   const auto other = test::noise_image<std::uint16_t>(192, 144, 3000, 50, 1);
@@ -89,7 +212,7 @@ TEST(Detector, KeepsBudgetsAndRanks) {
   const auto frame = small_desk(6);
   DetectorOptions options;
   options.contours.min_component_px = 0;
-  options.scoring.keep_edges = 5;
+  options.selection.keep_edges = 5;
   Detector one = detector(options);
   const auto detection = one.detect(frame.counts);
   ASSERT_TRUE(detection);

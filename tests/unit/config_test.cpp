@@ -14,7 +14,7 @@ DetectorOptions unusual_options() {
   options.denoise.bm3d.lambda = 3.1;
   options.contours.gap_px = 2;
   options.linking.gap_px = 0;
-  options.scoring.keep_edges = 0;
+  options.selection.keep_edges = 0;
   return options;
 }
 
@@ -74,7 +74,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadConfig{"[denoise]\nmethod = \"magic\"\n",
                   "robot.toml: line 2: denoise.method = 'magic' is none of none, gaussian, nlm, "
                   "bm3d"},
-        BadConfig{"preset = \"magic\"\n", "robot.toml: preset = 'magic' is none of paper"},
+        BadConfig{"preset = \"magic\"\n", "robot.toml: preset = 'magic' is none of paper, robust"},
         BadConfig{"canny = 3\n", "robot.toml: line 1: canny should be a table of options"}));
 
 TEST(Config, NamesTheLineOfWhatIsNotToml) {

@@ -285,37 +285,27 @@ TEST(Scorer, TiesGoToTheLongerThenTheEarlierCurve) {
   EXPECT_EQ(start_of(edges, 3), (Pixel{10, 40}));
 }
 
-// Curves of 40, 30, 20 and 10 points, in this order of rank.
-EdgeSet four_edges(int keep_edges, int max_edgels) {
+TEST(Scorer, ProminentAndLongEdgesComeFirstWhereProminenceIsGiven) {
   Frame frame;
-  for (const int length : {10, 20, 30, 40}) {
-    frame.add(straight({10, length}, {9 + length, length}));
+  frame.add(straight({10, 10}, {49, 10}));
+  frame.add(straight({10, 20}, {49, 20}));
+  frame.add(straight({10, 30}, {29, 30}));
+  Image<float> prominence(382, 288);
+  fill_pixels(prominence.view(), 0.0F);
+  for (int x = 0; x < prominence.width(); ++x) {
+    prominence(x, 10) = 2;
+    prominence(x, 20) = 6;
+    prominence(x, 30) = 2;
   }
-  ScoringOptions options;
-  options.keep_edges = keep_edges;
-  options.max_edgels = max_edgels;
-  return score(frame, options);
-}
-
-TEST(Scorer, BudgetOfEdges) {
-  EXPECT_EQ(four_edges(0, 0).kept, 4U);
-  EXPECT_EQ(four_edges(3, 0).kept, 3U);
-  EXPECT_EQ(four_edges(4, 0).kept, 4U);
-  EXPECT_EQ(four_edges(9, 0).kept, 4U);
-  const EdgeSet edges = four_edges(3, 0);
-  EXPECT_EQ(edges.edges.size(), 4U);
-  EXPECT_TRUE(edges.edges[2].kept);
-  EXPECT_FALSE(edges.edges[3].kept);
-  EXPECT_EQ(edges.kept_edges().size(), 3U);
-}
-
-TEST(Scorer, BudgetOfEdgels) {
-  EXPECT_EQ(four_edges(0, 39).kept, 0U);
-  EXPECT_EQ(four_edges(0, 40).kept, 1U);
-  EXPECT_EQ(four_edges(0, 69).kept, 1U);
-  EXPECT_EQ(four_edges(0, 70).kept, 2U);
-  EXPECT_EQ(four_edges(0, 1000).kept, 4U);
-  EXPECT_EQ(four_edges(1, 1000).kept, 1U);
+  EdgeSet edges;
+  ASSERT_TRUE(Scorer({}).run(frame.linked, frame.corners, prominence, edges));
+  ASSERT_EQ(edges.edges.size(), 3U);
+  EXPECT_EQ(start_of(edges, 0), (Pixel{10, 20}));
+  EXPECT_EQ(start_of(edges, 1), (Pixel{10, 10}));
+  EXPECT_EQ(start_of(edges, 2), (Pixel{10, 30}));
+  EXPECT_NEAR(edges.edges[0].score, std::log(6.0) + 0.25 * std::log(40.0), 1e-9);
+  EXPECT_NEAR(edges.edges[2].score, std::log(2.0) + 0.25 * std::log(20.0), 1e-9);
+  EXPECT_NEAR(edges.edges[0].es, 0, 1e-9);  // still told
 }
 
 TEST(Scorer, EdgelsFollowTheCurve) {

@@ -1,0 +1,462 @@
+#include "thermedge/oriented.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <vector>
+
+#include "denoise_frame.hpp"
+#include "denoise_math.hpp"
+#include "hysteresis.hpp"
+#include "simd/gaussian.hpp"
+#include "simd/oriented.hpp"
+#include "simd/suppress.hpp"
+#include "thermedge/options.hpp"
+
+namespace thermedge {
+namespace {
+
+constexpr int kDirections = 12;  // of edges; 24 with the side that is warmer
+constexpr int kSidePx = 4;       // where an edge has to be over
+constexpr int kBandRows = 32;
+constexpr int kMaxLineRadius = 10;
+constexpr std::size_t kFineGroupPx = 8;  // smaller groups of the fine derivative are left out
+constexpr double kFineLow = 0.6;         // its low threshold, of the high one
+
+// Weights of a Gaussian and of its derivative, cut off at 3.5 standard deviations.
+struct Derivative {
+  explicit Derivative(double sigma_px)
+      : radius(static_cast<int>(std::ceil(3.5 * sigma_px))),
+        smooth(static_cast<std::size_t>(radius) + 1),
+        slope(smooth.size()) {
+    double sum = 0;
+    std::vector<double> bell;
+    for (int k = 0; k <= radius; ++k) {
+      bell.push_back(detail::portable_exp(-0.5 * k * k / (sigma_px * sigma_px)));
+      sum += k == 0 ? bell.back() : 2 * bell.back();
+    }
+    for (std::size_t k = 0; k < bell.size(); ++k) {
+      smooth[k] = static_cast<float>(bell[k] / sum);
+      slope[k] = static_cast<float>(static_cast<double>(k) * bell[k] / sum);
+    }
+  }
+
+  // The two-dimensional kernel, derivative along x, at (x, y).
+  [[nodiscard]] double at(int x, int y) const {
+    if (std::abs(x) > radius || std::abs(y) > radius) {
+      return 0;
+    }
+    const double sign = x < 0 ? -1 : 1;
+    return sign * slope[static_cast<std::size_t>(std::abs(x))] *
+           smooth[static_cast<std::size_t>(std::abs(y))];
+  }
+
+  int radius;
+  std::vector<float> smooth;
+  std::vector<float> slope;  // positive; of pixels ahead, those behind have the negative
+};
+
+// Unit vector along the edges of a direction. Those of directions that mirror each other do so to
+// the last bit.
+struct Tangent {
+  double x;
+  double y;
+};
+Tangent tangent_of(int direction) {
+  const std::array<double, 4> cosines = {1, (std::numbers::sqrt2 * (std::numbers::sqrt3 + 1)) / 4,
+                                         std::numbers::sqrt3 / 2, std::numbers::sqrt2 / 2};
+  const std::array<double, 4> sines = {0, (std::numbers::sqrt2 * (std::numbers::sqrt3 - 1)) / 4,
+                                       0.5, std::numbers::sqrt2 / 2};
+  const int folded = direction <= 6 ? direction : kDirections - direction;  // 0 .. 90 degrees
+  const auto i = static_cast<std::size_t>(folded <= 3 ? folded : 6 - folded);
+  const double x = folded <= 3 ? cosines[i] : sines[i];
+  const double y = folded <= 3 ? sines[i] : cosines[i];
+  return {direction <= 6 ? x : -x, y};
+}
+
+// A pixel of the line through the origin; halves go towards it, whatever the side.
+int nearest_pixel(double value) { return static_cast<int>(std::lround(value * (1 - 1e-9))); }
+
+// Where a pixel is compared with its neighbours across the edge: between two of them on either
+// side, `share` of the way from the first to the second.
+struct Across {
+  int first_x, first_y;
+  int second_x, second_y;
+  float share;
+  int side_x, side_y;  // kSidePx away
+};
+Across across(int direction) {
+  direction %= kDirections;
+  const Tangent tangent = tangent_of(direction);
+  const double x = -tangent.y;  // the normal
+  const double y = tangent.x;
+  const int step_x = x < 0 ? -1 : 1;
+  const int step_y = y < 0 ? -1 : 1;
+  if (std::abs(x) >= std::abs(y)) {
+    return {step_x,
+            0,
+            step_x,
+            step_y,
+            static_cast<float>(std::abs(y) / std::abs(x)),
+            nearest_pixel(kSidePx * x),
+            nearest_pixel(kSidePx * y)};
+  }
+  return {0,
+          step_y,
+          step_x,
+          step_y,
+          static_cast<float>(std::abs(x) / std::abs(y)),
+          nearest_pixel(kSidePx * x),
+          nearest_pixel(kSidePx * y)};
+}
+
+// What adds derivatives up along the edges of one direction.
+struct Line {
+  std::array<int, kMaxLineRadius + 1> dx;
+  std::array<int, kMaxLineRadius + 1> dy;
+  float gx_gain;  // the response is the line's sum of gx_gain gx + gy_gain gy: noise of 1 makes 1
+  float gy_gain;
+};
+
+struct LineWeights {
+  int radius;
+  std::array<float, kMaxLineRadius + 1> weights;
+};
+
+LineWeights line_weights(const OrientedOptions& options) {
+  const double variance =
+      options.along_px * options.along_px - options.across_px * options.across_px;
+  LineWeights line{
+      std::min(static_cast<int>(std::ceil(2.25 * std::sqrt(variance))), kMaxLineRadius), {}};
+  for (int k = 0; k <= line.radius; ++k) {
+    line.weights[static_cast<std::size_t>(k)] =
+        k == 0 ? 1.0F : static_cast<float>(detail::portable_exp(-0.5 * k * k / variance));
+  }
+  return line;
+}
+
+Line make_line(int direction, const LineWeights& weights, const Derivative& derivative) {
+  const Tangent tangent = tangent_of(direction);
+  Line line{};
+  for (int k = 0; k <= weights.radius; ++k) {
+    line.dx[static_cast<std::size_t>(k)] = nearest_pixel(k * tangent.x);
+    line.dy[static_cast<std::size_t>(k)] = nearest_pixel(k * tangent.y);
+  }
+  // What white noise makes of it: the root of the sum of the squares of the whole kernel.
+  const int reach = derivative.radius + weights.radius;
+  double power = 0;
+  for (int y = -reach; y <= reach; ++y) {
+    for (int x = -reach; x <= reach; ++x) {
+      double value = 0;
+      for (int k = -weights.radius; k <= weights.radius; ++k) {
+        const auto i = static_cast<std::size_t>(std::abs(k));
+        const int sign = k < 0 ? -1 : 1;
+        const int at_x = x - sign * line.dx[i];
+        const int at_y = y - sign * line.dy[i];
+        value += static_cast<double>(weights.weights[i]) *
+                 (-tangent.y * derivative.at(at_x, at_y) + tangent.x * derivative.at(at_y, at_x));
+      }
+      power += value * value;
+    }
+  }
+  const double gain = 1 / std::sqrt(power);
+  line.gx_gain = static_cast<float>(-tangent.y * gain);
+  line.gy_gain = static_cast<float>(tangent.x * gain);
+  return line;
+}
+
+// What noise of 1 makes of a derivative.
+double noise_gain(const Derivative& derivative) {
+  double power = 0;
+  for (int y = -derivative.radius; y <= derivative.radius; ++y) {
+    for (int x = -derivative.radius; x <= derivative.radius; ++x) {
+      power += derivative.at(x, y) * derivative.at(x, y);
+    }
+  }
+  return std::sqrt(power);
+}
+
+Status check(ImageView<const float> in, double sigma_counts, const OrientedOptions& options) {
+  if (in.empty()) {
+    return failure(ErrorCode::kInvalidArgument, "frame: it has no pixels");
+  }
+  if (!(sigma_counts > 0) || !std::isfinite(sigma_counts)) {
+    return failure(ErrorCode::kInvalidArgument, "noise: it must be above 0 and finite");
+  }
+  if (options.along_px < options.across_px) {
+    return failure(ErrorCode::kInvalidArgument, "oriented.along_px is less than across_px");
+  }
+  if (options.high < options.low) {
+    return failure(ErrorCode::kInvalidArgument, "oriented.high is less than low");
+  }
+  return check_ranges(options, "oriented.").and_then([&] { return detail::check_finite(in); });
+}
+
+}  // namespace
+
+// Pictures with a margin: pixel (x, y) of the frame is at (x + margin, y + margin).
+struct OrientedEdges::Impl {
+  explicit Impl(const OrientedOptions& chosen)
+      : options(chosen),
+        derivative(std::clamp(chosen.across_px, 0.5, 2.0)),
+        fine(std::clamp(chosen.fine_px, 0.5, 2.0)),
+        line_weight(line_weights(chosen)) {
+    for (int i = 0; i < kDirections; ++i) {
+      lines[static_cast<std::size_t>(i)] = make_line(i, line_weight, derivative);
+    }
+    for (int i = 0; i < 2 * kDirections; ++i) {
+      steps[static_cast<std::size_t>(i)] = across(i);
+    }
+  }
+
+  void prepare(int width, int height);
+  template <class F>
+  void for_each_band(Runner& runner, F&& task) const;
+  void differentiate(const Derivative& kernel, int margin, int y_begin, int y_end, float* scratch);
+  void find_fine(Runner& runner, double sigma_counts);
+  void project(int band, int y_begin, int y_end, double sigma_counts);
+  void suppress(int y_begin, int y_end);
+  void merge_fine();
+  [[nodiscard]] float prominence_at(int x, int y) const;
+
+  OrientedOptions options;
+  Derivative derivative;
+  Derivative fine;
+  LineWeights line_weight;
+  std::array<Line, kDirections> lines{};
+  std::array<Across, 2 * kDirections> steps{};
+
+  int width = 0, height = 0, bands = 0;
+  Image<float> padded;   // margin: padding()
+  Image<float> gx, gy;   // margin: that of the line, or 0 for the fine one
+  Image<float> scratch;  // rows for each band
+  Image<float> fine_magnitude;
+  Image<float> projected;  // for each band its rows and those of the lines' margins
+  Image<float> strength;
+  Image<std::int32_t> direction;
+  Image<float> prominence;
+  Image<std::uint8_t> fine_classes, edges;
+  std::vector<std::ptrdiff_t> group;
+
+  [[nodiscard]] int padding() const {
+    return std::max(derivative.radius + line_weight.radius, fine.radius);
+  }
+};
+
+void OrientedEdges::Impl::prepare(int frame_width, int frame_height) {
+  width = frame_width;
+  height = frame_height;
+  bands = (height + kBandRows - 1) / kBandRows;
+  const int slack = detail::kOrientedSlack;
+  const int line = line_weight.radius;
+  padded.resize(width + 2 * padding() + slack, height + 2 * padding());
+  gx.resize(width + 2 * line + slack, height + 2 * line);
+  gy.resize(gx.width(), gx.height());
+  scratch.resize(width + 2 * padding() + slack, 2 * bands);
+  projected.resize(gx.width(), bands * (kBandRows + 2 * line));
+  strength.resize(width + slack, height);
+  direction.resize(width + slack, height);
+  prominence.resize(width, height);
+  fine_magnitude.resize(width + slack, height);
+  fine_classes.resize(width + 64, height);
+  edges.resize(width, height);
+  group.reserve(edges.size());
+}
+
+// task(band, y_begin, y_end): the bands depend on the height alone, not on the Runner.
+template <class F>
+void OrientedEdges::Impl::for_each_band(Runner& runner, F&& task) const {
+  runner.run(bands, [&](int band) {
+    task(band, band * kBandRows, std::min((band + 1) * kBandRows, height));
+  });
+}
+
+// Fills gx and gy, whose margin is `margin`, for the rows of the frame from y_begin to y_end.
+void OrientedEdges::Impl::differentiate(const Derivative& kernel, int margin, int y_begin,
+                                        int y_end, float* rows) {
+  const int wide = width + 2 * (margin + kernel.radius);
+  float* const smoothed = rows;
+  float* const sloped = rows + scratch.stride();
+  for (int y = y_begin; y < y_end; ++y) {
+    const float* centre = padded.row(y + padding()) + padding() - margin - kernel.radius;
+    detail::smooth_row(centre, padded.stride(), kernel.smooth.data(), kernel.radius, wide,
+                       smoothed);
+    detail::odd_filter_row(centre, padded.stride(), kernel.slope.data(), kernel.radius, wide,
+                           sloped);
+    const int narrow = width + 2 * margin;
+    detail::odd_filter_row(smoothed + kernel.radius, 1, kernel.slope.data(), kernel.radius, narrow,
+                           gx.row(y + margin));
+    detail::smooth_row(sloped + kernel.radius, 1, kernel.smooth.data(), kernel.radius, narrow,
+                       gy.row(y + margin));
+  }
+}
+
+// Leaves in fine_classes where the fine derivative decides.
+void OrientedEdges::Impl::find_fine(Runner& runner, double sigma_counts) {
+  for_each_band(runner, [&](int band, int y_begin, int y_end) {
+    differentiate(fine, 0, y_begin, y_end, scratch.row(2 * band));
+    for (int y = y_begin; y < y_end; ++y) {
+      detail::magnitude_row(gx.row(y), gy.row(y), width, fine_magnitude.row(y));
+    }
+  });
+  const double high = options.fine_above * noise_gain(fine) * sigma_counts;
+  for_each_band(runner, [&](int, int y_begin, int y_end) {
+    for (int y = y_begin; y < y_end; ++y) {
+      std::uint8_t* classes = fine_classes.row(y);
+      std::fill_n(classes, fine_classes.width(), detail::kNoEdge);
+      if (y == 0 || y == height - 1 || width < 3) {
+        continue;
+      }
+      const detail::GradientRow row{gx.row(y) + 1, gy.row(y) + 1, fine_magnitude.row(y) + 1,
+                                    fine_magnitude.stride()};
+      detail::suppress_row(row, width - 2, static_cast<float>(kFineLow * high),
+                           static_cast<float>(high), classes + 1);
+      std::fill(classes + width - 1, classes + fine_classes.width(), detail::kNoEdge);
+    }
+  });
+  detail::apply_hysteresis(fine_classes.view().crop(0, 0, width, height), kFineGroupPx, group);
+}
+
+void OrientedEdges::Impl::project(int band, int y_begin, int y_end, double sigma_counts) {
+  const int margin = line_weight.radius;
+  const int first_row = band * (kBandRows + 2 * margin);  // of this band in `projected`
+  const auto per_sigma = static_cast<float>(1 / sigma_counts);
+  for (int y = y_begin; y < y_end; ++y) {
+    std::fill_n(strength.row(y), strength.width(), 0.0F);
+    std::fill_n(direction.row(y), direction.width(), 0);
+  }
+  for (int i = 0; i < kDirections; ++i) {
+    const Line& line = lines[static_cast<std::size_t>(i)];
+    const int reach = *std::max_element(line.dy.begin(), line.dy.begin() + margin + 1);
+    for (int y = y_begin - reach; y < y_end + reach; ++y) {
+      detail::project_row(gx.row(y + margin), gy.row(y + margin), line.gx_gain * per_sigma,
+                          line.gy_gain * per_sigma, width + 2 * margin,
+                          projected.row(first_row + y - y_begin + margin));
+    }
+    std::array<std::ptrdiff_t, kMaxLineRadius + 1> offsets{};
+    for (std::size_t k = 0; k <= static_cast<std::size_t>(margin); ++k) {
+      offsets[k] = line.dy[k] * projected.stride() + line.dx[k];
+    }
+    for (int y = y_begin; y < y_end; ++y) {
+      detail::keep_stronger_row(projected.row(first_row + y - y_begin + margin) + margin,
+                                offsets.data(), line_weight.weights.data(), margin, i, kDirections,
+                                width, strength.row(y), direction.row(y));
+    }
+  }
+}
+
+// By how much the strength of a pixel is over that of both sides; a slope is as strong all over.
+float OrientedEdges::Impl::prominence_at(int x, int y) const {
+  const Across& step = steps[static_cast<std::size_t>(direction(x, y))];
+  const auto side = [&](int sign) {
+    const int side_x = detail::mirrored(x + sign * step.side_x, width);
+    const int side_y = detail::mirrored(y + sign * step.side_y, height);
+    const int turn = std::abs(direction(side_x, side_y) - direction(x, y));
+    return turn <= 3 || turn >= 2 * kDirections - 3 ? strength(side_x, side_y) : 0.0F;
+  };
+  return strength(x, y) - 0.5F * (side(1) + side(-1));
+}
+
+// Leaves in `edges` the class of each pixel before hysteresis.
+void OrientedEdges::Impl::suppress(int y_begin, int y_end) {
+  const auto low = static_cast<float>(options.low);
+  const auto high = static_cast<float>(options.high);
+  const std::ptrdiff_t stride = strength.stride();
+  for (int y = y_begin; y < y_end; ++y) {
+    std::uint8_t* classes = edges.row(y);
+    std::fill_n(classes, width, detail::kNoEdge);
+    if (y == 0 || y == height - 1) {
+      continue;
+    }
+    for (int x = 1; x + 1 < width; ++x) {
+      const float* at = strength.row(y) + x;
+      if (!(*at > low)) {
+        continue;
+      }
+      const Across& step = steps[static_cast<std::size_t>(direction(x, y))];
+      const std::ptrdiff_t first = step.first_y * stride + step.first_x;
+      const std::ptrdiff_t second = step.second_y * stride + step.second_x;
+      const float ahead = at[first] + step.share * (at[second] - at[first]);
+      const float behind = at[-first] + step.share * (at[-second] - at[-first]);
+      if (*at >= ahead && *at > behind) {
+        prominence(x, y) = prominence_at(x, y);
+        classes[x] = prominence(x, y) > high  ? detail::kStrongEdge
+                     : prominence(x, y) > low ? detail::kWeakEdge
+                                              : detail::kNoEdge;
+      }
+    }
+  }
+}
+
+// Near fine edges only they are edges.
+void OrientedEdges::Impl::merge_fine() {
+  constexpr int kReach = 2;
+  const auto low = static_cast<float>(options.low);
+  const auto high = static_cast<float>(options.high);
+  for (int y = 1; y + 1 < height; ++y) {
+    for (int x = 1; x + 1 < width; ++x) {
+      if (fine_classes(x, y) == detail::kNoEdge) {
+        continue;
+      }
+      for (int dy = -kReach; dy <= kReach; ++dy) {
+        for (int dx = -kReach; dx <= kReach; ++dx) {
+          if (dx * dx + dy * dy <= kReach * kReach && edges.view().contains(x + dx, y + dy)) {
+            edges(x + dx, y + dy) = detail::kNoEdge;
+          }
+        }
+      }
+    }
+  }
+  for (int y = 1; y + 1 < height; ++y) {
+    for (int x = 1; x + 1 < width; ++x) {
+      if (fine_classes(x, y) != detail::kNoEdge) {
+        prominence(x, y) = prominence_at(x, y);
+        edges(x, y) = prominence(x, y) > high  ? detail::kStrongEdge
+                      : prominence(x, y) > low ? detail::kWeakEdge
+                                               : detail::kNoEdge;
+      }
+    }
+  }
+}
+
+OrientedEdges::OrientedEdges(const OrientedOptions& options)
+    : impl_(std::make_unique<Impl>(options)) {}
+OrientedEdges::OrientedEdges(OrientedEdges&&) noexcept = default;
+OrientedEdges& OrientedEdges::operator=(OrientedEdges&&) noexcept = default;
+OrientedEdges::~OrientedEdges() = default;
+
+Result<OrientedResult> OrientedEdges::run(ImageView<const float> in, double sigma_counts,
+                                          Runner& runner) {
+  Impl& self = *impl_;
+  if (Status status = check(in, sigma_counts, self.options); !status) {
+    return tl::unexpected(status.error());
+  }
+  self.prepare(in.width(), in.height());
+  const int padding = self.padding();
+  for (int y = 0; y < self.padded.height(); ++y) {
+    detail::mirrored_row(in, y - padding, padding, self.padded.width(), self.padded.row(y));
+  }
+  if (self.options.fine_px > 0) {
+    self.find_fine(runner, sigma_counts);
+  }
+  const int margin = self.line_weight.radius;
+  self.for_each_band(runner, [&](int band, int y_begin, int y_end) {
+    self.differentiate(self.derivative, margin, y_begin == 0 ? -margin : y_begin,
+                       y_end == self.height ? y_end + margin : y_end, self.scratch.row(2 * band));
+  });
+  self.for_each_band(runner, [&](int band, int y_begin, int y_end) {
+    self.project(band, y_begin, y_end, sigma_counts);
+  });
+  self.for_each_band(runner, [&](int, int y_begin, int y_end) { self.suppress(y_begin, y_end); });
+  if (self.options.fine_px > 0) {
+    self.merge_fine();
+  }
+  detail::apply_hysteresis(self.edges.view(), 1, self.group);
+  return OrientedResult{self.strength.view().crop(0, 0, self.width, self.height),
+                        self.direction.view().crop(0, 0, self.width, self.height), self.prominence,
+                        self.edges};
+}
+
+}  // namespace thermedge
