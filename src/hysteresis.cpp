@@ -27,8 +27,8 @@ void keep_group(ImageView<std::uint8_t> classes, std::ptrdiff_t seed, std::size_
   };
   group.clear();
   keep(seed);
-  for (std::size_t next = 0; next < group.size(); ++next) {
-    const std::ptrdiff_t pixel = group[next];
+  for (std::size_t next = 0; next < group.size();) {
+    const std::ptrdiff_t pixel = group[next++];
     for (const std::ptrdiff_t step : neighbours) {
       const std::uint8_t found = pixels[pixel + step];
       if (found == kWeakEdge || found == kStrongEdge) {

@@ -351,8 +351,12 @@ void OrientedEdges::Impl::project(int band, int y_begin, int y_end, double sigma
 float OrientedEdges::Impl::prominence_at(int x, int y) const {
   const Across& step = steps[static_cast<std::size_t>(direction(x, y))];
   const auto side = [&](int sign) {
-    const int side_x = detail::mirrored(x + sign * step.side_x, width);
-    const int side_y = detail::mirrored(y + sign * step.side_y, height);
+    int side_x = x + sign * step.side_x;
+    int side_y = y + sign * step.side_y;
+    if (!strength.view().contains(side_x, side_y) || side_x >= width) {
+      side_x = detail::mirrored(side_x, width);
+      side_y = detail::mirrored(side_y, height);
+    }
     const int turn = std::abs(direction(side_x, side_y) - direction(x, y));
     return turn <= 3 || turn >= 2 * kDirections - 3 ? strength(side_x, side_y) : 0.0F;
   };

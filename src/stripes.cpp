@@ -69,6 +69,7 @@ class ColumnOffsets {
   void number_segments(std::span<const int> jumps);
   void solve(double scale, std::span<const int> jumps, std::span<double> result);
   void find_jumps(double deviation);
+  [[nodiscard]] double jump_z(int x, double deviation) const;
   double white_deviation(std::span<const double> profile);
 
   int columns_ = 0;
@@ -81,7 +82,7 @@ class ColumnOffsets {
   std::vector<double> steps_;  // of each part
   std::vector<Pair> pairs_;    // of each lag
   std::vector<double> band_;   // of the normal equations, row by row
-  std::vector<double> profile_, offsets_, slopes_, sorted_, cumulated_;
+  std::vector<double> profile_, offsets_, slopes_, sorted_, cumulated_, clearness_;
   std::vector<int> jumps_;  // a jump is between a column and the next
   std::vector<int> reach_left_, reach_right_, segment_;
 };
@@ -105,6 +106,7 @@ void ColumnOffsets::prepare(int columns, int rows) {
   slopes_.resize(n);
   sorted_.resize(n);
   cumulated_.resize(n + 1);
+  clearness_.resize(n);
   jumps_.reserve(kMostJumps);
   reach_left_.resize(n);
   reach_right_.resize(n);
@@ -332,30 +334,18 @@ void ColumnOffsets::find_jumps(double deviation) {
   std::fill(reach_left_.begin(), reach_left_.end(), 0);
   std::fill(reach_right_.begin(), reach_right_.end(), n);
   jumps_.clear();
-  while (jumps_.size() < kMostJumps) {
-    double best = 0;
-    int at = -1;
-    for (int x = 0; x + 1 < n; ++x) {
-      for (const int window : kJumpWindows) {
-        const int begin = std::max(x + 1 - window, reach_left_[index(x)]);
-        const int end = std::min(x + 1 + window, reach_right_[index(x)]);
-        const int left = x + 1 - begin;
-        const int right = end - x - 1;
-        if (left < kShortestJumpSide || right < kShortestJumpSide) {
-          continue;
-        }
-        const double step = (cumulated_[index(end)] - cumulated_[index(x + 1)]) / right -
-                            (cumulated_[index(x + 1)] - cumulated_[index(begin)]) / left;
-        const double z = std::abs(step) / (deviation * std::sqrt(1.0 / left + 1.0 / right));
-        if (z > best) {
-          best = z;
-          at = x;
-        }
-      }
+  const auto update = [&](int begin, int end) {
+    for (int x = std::max(begin, 0); x < std::min(end, n - 1); ++x) {
+      clearness_[index(x)] = jump_z(x, deviation);
     }
-    if (best < kJumpZ) {
+  };
+  update(0, n - 1);
+  while (jumps_.size() < kMostJumps) {
+    const auto best = std::max_element(clearness_.begin(), clearness_.end() - 1);
+    if (*best < kJumpZ) {
       break;
     }
+    const int at = static_cast<int>(best - clearness_.begin());
     jumps_.push_back(at);
     for (int x = reach_left_[index(at)]; x <= at; ++x) {
       reach_right_[index(x)] = std::min(reach_right_[index(x)], at + 1);
@@ -363,7 +353,26 @@ void ColumnOffsets::find_jumps(double deviation) {
     for (int x = at + 1; x < n; ++x) {
       reach_left_[index(x)] = std::max(reach_left_[index(x)], at + 1);
     }
+    update(at - kJumpWindows.back(), at + kJumpWindows.back() + 1);
   }
+}
+
+// How clearly the profile jumps behind sample `x`: the largest z of all windows.
+double ColumnOffsets::jump_z(int x, double deviation) const {
+  double best = 0;
+  for (const int window : kJumpWindows) {
+    const int begin = std::max(x + 1 - window, reach_left_[index(x)]);
+    const int end = std::min(x + 1 + window, reach_right_[index(x)]);
+    const int left = x + 1 - begin;
+    const int right = end - x - 1;
+    if (left < kShortestJumpSide || right < kShortestJumpSide) {
+      continue;
+    }
+    const double step = (cumulated_[index(end)] - cumulated_[index(x + 1)]) / right -
+                        (cumulated_[index(x + 1)] - cumulated_[index(begin)]) / left;
+    best = std::max(best, std::abs(step) / (deviation * std::sqrt(1.0 / left + 1.0 / right)));
+  }
+  return best;
 }
 
 bool ColumnOffsets::measure(ImageView<const std::uint16_t> counts, double sigma, Runner& runner) {

@@ -45,6 +45,26 @@ Json to_json(const StageTimes& ms) {
   return json;
 }
 
+struct VerdictCounts {
+  std::size_t weak = 0, insignificant = 0, beyond_budget = 0;
+};
+
+VerdictCounts count_verdicts(const EdgeSet& set) {
+  VerdictCounts counts;
+  for (const Edge& edge : set.edges) {
+    counts.weak += edge.verdict == EdgeVerdict::kWeak ? 1 : 0;
+    counts.insignificant += edge.verdict == EdgeVerdict::kInsignificant ? 1 : 0;
+    counts.beyond_budget += edge.verdict == EdgeVerdict::kBeyondBudget ? 1 : 0;
+  }
+  return counts;
+}
+
+Json to_json(const VerdictCounts& counts) {
+  return {{"weak", counts.weak},
+          {"insignificant", counts.insignificant},
+          {"beyond_budget", counts.beyond_budget}};
+}
+
 }  // namespace
 
 std::string edges_to_json(const Detection& detection, const ResultLabel& label) {
@@ -67,6 +87,7 @@ std::string edges_to_json(const Detection& detection, const ResultLabel& label) 
                          {"stats",
                           {{"ms", to_json(detection.ms)},
                            {"edges_found", set.edges.size()},
+                           {"edges_dropped", to_json(count_verdicts(set))},
                            {"dead_pixels", detection.dead_pixels.size()},
                            {"canny_low", rounded(detection.canny_low)},
                            {"canny_high", rounded(detection.canny_high)}}}};
