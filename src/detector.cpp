@@ -10,6 +10,7 @@
 
 #include "thermedge/correction.hpp"
 #include "thermedge/measure.hpp"
+#include "thermedge/subpixel.hpp"
 
 namespace thermedge {
 namespace {
@@ -157,6 +158,7 @@ Status Detector::Impl::detect_oriented(int bits) {
         const Stopwatch watch(result.ms.measure);
         const bool striped = !result.stripes->columns.empty() || !result.stripes->rows.empty();
         measure_edges(result.corrected, unit, {striped ? kStripesLeft : 0}, result.edges);
+        refine_positions(oriented_found.strength, options.oriented.along_px, result.edges);
         return selector.run(result.edges);
       });
 }
