@@ -82,4 +82,30 @@ void EdgeSelector::keep_best(EdgeSet& edges) const {
   }
 }
 
+void EdgeSelector::keep_junctions(int width, int height, EdgeSet& edges) {
+  constexpr std::int32_t kNobody = -1;
+  constexpr int kReach = 2;
+  owner_.resize(width, height);
+  fill_pixels(owner_.view(), kNobody);
+  for (const Edge& edge : edges.kept_edges()) {
+    for (std::size_t i = edge.edgels.first; i < edge.edgels.first + edge.edgels.count; ++i) {
+      owner_(static_cast<int>(std::floor(edges.edgels.x[i] + 0.5F)),
+             static_cast<int>(std::floor(edges.edgels.y[i] + 0.5F))) = edge.id;
+    }
+  }
+  std::erase_if(edges.junctions, [&](const Junction& junction) {
+    std::int32_t first = kNobody;
+    for (int y = junction.at.y - kReach; y <= junction.at.y + kReach; ++y) {
+      for (int x = junction.at.x - kReach; x <= junction.at.x + kReach; ++x) {
+        const std::int32_t owner = owner_.view().contains(x, y) ? owner_(x, y) : kNobody;
+        if (owner != kNobody && first != kNobody && owner != first) {
+          return false;
+        }
+        first = owner != kNobody ? owner : first;
+      }
+    }
+    return true;
+  });
+}
+
 }  // namespace thermedge

@@ -124,6 +124,14 @@ class StagePanels {
 
   [[nodiscard]] Panel edge_pixels() const {
     const double share = 1 - share_of_level(found_.edge_map, 0);
+    if (options_.edges == EdgeMethod::kOriented) {
+      return panel("Edge pixels (oriented kernels)",
+                   fmt::format("{:.0f} pixels, {:.1f} % of the frame; prominence above {:.2f}, "
+                               "connected down to {:.2f}, in units of the noise.",
+                               share * static_cast<double>(found_.edge_map.size()), 100 * share,
+                               found_.canny_high, found_.canny_low),
+                   map_picture(found_.edge_map));
+    }
     return panel("Edge pixels (Canny)",
                  fmt::format("{:.0f} pixels, {:.1f} % of the frame; Sobel magnitude above {:.1f}, "
                              "connected down to {:.1f} levels.",
@@ -145,14 +153,17 @@ class StagePanels {
 
   [[nodiscard]] Panel links() const {
     const LinkedContours& linked = *found_.linked;
-    Panel made =
-        drawn_over("Links",
-                   fmt::format("gaps under {} px: {} contours became {}.", options_.linking.gap_px,
-                               found_.contours->contours.size(), linked.contours.contours.size()),
-                   [&linked](Canvas& canvas) {
-                     draw_contours(canvas, linked.contours, {150, 154, 160});
-                     draw_links(canvas, linked.links);
-                   });
+    const bool from_graph = options_.edges == EdgeMethod::kOriented;
+    Panel made = drawn_over(
+        "Links",
+        from_graph
+            ? std::string("ends of contours that meet the middle of another one.")
+            : fmt::format("gaps under {} px: {} contours became {}.", options_.linking.gap_px,
+                          found_.contours->contours.size(), linked.contours.contours.size()),
+        [&linked](Canvas& canvas) {
+          draw_contours(canvas, linked.contours, {150, 154, 160});
+          draw_links(canvas, linked.links);
+        });
     made.legend.assign(link_marks().begin(), link_marks().end());
     for (std::size_t i = 0; i < made.legend.size(); ++i) {
       const auto count = std::count_if(
@@ -176,6 +187,45 @@ class StagePanels {
   }
 
   [[nodiscard]] Panel scores() const {
+    return options_.edges == EdgeMethod::kOriented ? verdicts() : edge_scores();
+  }
+
+  // Why edges were kept or dropped.
+  [[nodiscard]] Panel verdicts() const {
+    const EdgeSet& set = found_.edges;
+    struct Kind {
+      EdgeVerdict verdict;
+      Rgb colour;
+      std::string_view label;
+    };
+    static const std::array<Kind, 4> kKinds = {
+        Kind{EdgeVerdict::kWeak, {96, 104, 116}, "weak"},
+        Kind{EdgeVerdict::kInsignificant, category_colour(3), "not significant"},
+        Kind{EdgeVerdict::kBeyondBudget, category_colour(4), "beyond budget"},
+        Kind{EdgeVerdict::kKept, category_colour(1), "kept"}};
+    const auto& selection = options_.selection;
+    Panel made = drawn_over(
+        "Verdicts",
+        fmt::format("score (log of prominence, and of length) from {:.2f}; on the raw frame, at "
+                    "most {:g} such edges expected of noise alone.",
+                    selection.min_score, selection.max_false_alarms),
+        [&set](Canvas& canvas) {
+          draw_edges(canvas, set, set.edges, [](const Edge& edge) {
+            return std::find_if(kKinds.begin(), kKinds.end(),
+                                [&](const Kind& kind) { return kind.verdict == edge.verdict; })
+                ->colour;
+          });
+        });
+    for (const Kind& kind : kKinds) {
+      const auto count = std::count_if(set.edges.begin(), set.edges.end(), [&](const Edge& edge) {
+        return edge.verdict == kind.verdict;
+      });
+      made.legend.push_back({Mark::kDisc, kind.colour, fmt::format("{} {}", kind.label, count)});
+    }
+    return made;
+  }
+
+  [[nodiscard]] Panel edge_scores() const {
     const EdgeSet& set = found_.edges;
     if (set.edges.empty()) {
       return drawn_over("Edge score ES", "no edge.", [](Canvas&) {});

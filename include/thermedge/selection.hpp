@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "thermedge/edges.hpp"
+#include "thermedge/image.hpp"
 #include "thermedge/result.hpp"
 
 namespace thermedge {
@@ -27,6 +28,10 @@ class EdgeSelector {
   // Errors: an option out of range.
   [[nodiscard]] Status run(EdgeSet& edges);
 
+  // Leaves the junctions at which two kept edges meet (within 2 px); behind run. `width`, `height`:
+  // of the frame.
+  void keep_junctions(int width, int height, EdgeSet& edges);
+
  private:
   [[nodiscard]] EdgeVerdict judge(const Edge& edge) const;
   void reorder(EdgeSet& edges);
@@ -34,6 +39,7 @@ class EdgeSelector {
 
   SelectionOptions options_;
   std::vector<std::int32_t> rank_of_;  // of each edge, by its rank before
+  Image<std::int32_t> owner_;          // kept edge of each pixel, -1: none
 };
 
 }  // namespace thermedge

@@ -123,7 +123,7 @@ std::set<std::pair<float, float>> kept_pixels(const EdgeSet& set) {
   for (const Edge& edge : set.kept_edges()) {
     for (std::uint32_t i = 0; i < edge.edgels.count; ++i) {
       const std::size_t at = edge.edgels.first + i;
-      pixels.emplace(set.edgels.x[at], set.edgels.y[at]);
+      pixels.emplace(std::floor(set.edgels.x[at] + 0.5F), std::floor(set.edgels.y[at] + 0.5F));
     }
   }
   return pixels;

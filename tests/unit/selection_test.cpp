@@ -81,6 +81,23 @@ TEST(EdgeSelector, EdgesThatFailGoBehindTheOthers) {
   EXPECT_EQ(set.connections_of(set.edges[3])[0], 2);
 }
 
+TEST(EdgeSelector, KeepsTheJunctionsOfKeptEdges) {
+  EdgeSet set = four_edges({-9, -9, -9, -9}, {4, 3, 2, 1});
+  // Edge i runs along row 2 i.
+  for (const Edge& edge : set.edges) {
+    for (std::uint32_t k = 0; k < edge.edgels.count; ++k) {
+      set.edgels.x[edge.edgels.first + k] = static_cast<float>(k);
+      set.edgels.y[edge.edgels.first + k] = static_cast<float>(2 * edge.id);
+    }
+  }
+  set.junctions = {{{5, 1}}, {{5, 5}}, {{35, 1}}};  // of edges 0 and 1, 2 and 3, 0 alone
+  EdgeSelector selector({2, 0});
+  ASSERT_TRUE(selector.run(set));
+  selector.keep_junctions(60, 20, set);
+  ASSERT_EQ(set.junctions.size(), 1U);
+  EXPECT_EQ(set.junctions[0].at, (Pixel{5, 1}));
+}
+
 TEST(EdgeSelector, RefusesBudgetsBelowZero) {
   EdgeSet set;
   EXPECT_FALSE(EdgeSelector({-1, 0}).run(set));
