@@ -157,7 +157,8 @@ Status Detector::Impl::detect_oriented(int bits) {
       .and_then([&] {
         const Stopwatch watch(result.ms.measure);
         const bool striped = !result.stripes->columns.empty() || !result.stripes->rows.empty();
-        measure_edges(result.corrected, unit, {striped ? kStripesLeft : 0}, result.edges);
+        measure_edges(result.corrected, unit, oriented_found.direction,
+                      {striped ? kStripesLeft : 0}, result.edges);
         refine_positions(oriented_found.strength, options.oriented.along_px, result.edges);
         return selector.run(result.edges).map([&] {
           selector.keep_junctions(result.width, result.height, result.edges);

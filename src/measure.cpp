@@ -177,7 +177,8 @@ double contrast_of_slope(ImageView<const std::uint16_t> frame, const Edgels& edg
   return samples > 0 ? sum / samples * kMeanPx / kFarPx : 0;
 }
 
-// 1 for an edge along an axis, next to 0 for one at 45 degrees.
+// How much of an edge runs along one column or row: 1 for a straight one along an axis, 1 / sqrt(2)
+// where half runs along either, next to 0 for one at 45 degrees.
 double alignment(const Edgels& edgels, Range range) {
   const auto power_16 = [](float value) {
     double power = value;
@@ -186,11 +187,13 @@ double alignment(const Edgels& edgels, Range range) {
     }
     return power;
   };
-  double sum = 0;
+  double upright = 0;
+  double level = 0;
   for (std::size_t i = range.first; i < range.first + range.count; ++i) {
-    sum += power_16(std::max(std::abs(edgels.nx[i]), std::abs(edgels.ny[i])));
+    upright += power_16(edgels.nx[i]);
+    level += power_16(edgels.ny[i]);
   }
-  return sum / range.count;
+  return std::sqrt(upright * upright + level * level) / range.count;
 }
 
 // log10 of P(|Z| > z) for a standard normal Z. Far out, where the probability itself would
@@ -220,12 +223,14 @@ double number_of_tests(const EdgeSet& edges) {
 namespace {
 
 // significance(contrast, edge) is the z of an edge.
-template <class Significance>
+// orient(edge) may turn normals round before.
+template <class Orient, class Significance>
 void measure_all(ImageView<const std::uint16_t> frame, double sigma_counts, double tests,
-                 EdgeSet& edges, Significance&& significance) {
+                 EdgeSet& edges, Orient&& orient, Significance&& significance) {
   const double log10_tests = std::log10(tests);
   for (Edge& edge : edges.edges) {
     set_normals(edges.edgels, edge);
+    orient(edge);
     Contrast contrast = contrast_across(frame, edges.edgels, edge.edgels);
     if (contrast.counts < 0) {
       flip_normals(edges.edgels, edge.edgels);
@@ -242,18 +247,30 @@ void measure_all(ImageView<const std::uint16_t> frame, double sigma_counts, doub
 
 void measure_edges(ImageView<const std::uint16_t> frame, double sigma_counts, EdgeSet& edges) {
   measure_all(
-      frame, sigma_counts, number_of_tests(edges), edges,
+      frame, sigma_counts, number_of_tests(edges), edges, [](const Edge&) {},
       [&](const Contrast& contrast, const Edge&) { return z_of(contrast, sigma_counts, 0); });
 }
 
 void measure_edges(ImageView<const std::uint16_t> frame, double sigma_counts,
-                   const SignificanceOptions& options, EdgeSet& edges) {
+                   ImageView<const std::int32_t> direction, const SignificanceOptions& options,
+                   EdgeSet& edges) {
   constexpr double kPixelsPerTest = 64;
   const double tests = std::max(static_cast<double>(frame.size()) / kPixelsPerTest, 1.0);
-  measure_all(frame, sigma_counts, tests, edges, [&](Contrast contrast, const Edge& edge) {
-    const double slope = contrast_of_slope(frame, edges.edgels, edge.edgels);
+  Edgels& edgels = edges.edgels;
+  const auto orient = [&](const Edge& edge) {
+    for (std::size_t i = edge.edgels.first; i < edge.edgels.first + edge.edgels.count; ++i) {
+      const int steps =
+          direction(static_cast<int>(edgels.x[i]), static_cast<int>(edgels.y[i]));  // of 15 degrees
+      const double along = steps * std::numbers::pi / 12;
+      if (std::cos(along) * edgels.ny[i] - std::sin(along) * edgels.nx[i] < 0) {
+        flip_normals(edgels, {static_cast<std::uint32_t>(i), 1});
+      }
+    }
+  };
+  measure_all(frame, sigma_counts, tests, edges, orient, [&](Contrast contrast, const Edge& edge) {
+    const double slope = contrast_of_slope(frame, edgels, edge.edgels);
     contrast.counts = std::clamp(contrast.counts - slope, 0.0, contrast.counts);
-    const double stripes = options.stripe_sigmas * alignment(edges.edgels, edge.edgels);
+    const double stripes = options.stripe_sigmas * alignment(edgels, edge.edgels);
     return z_of(contrast, sigma_counts, stripes * stripes);
   });
 }

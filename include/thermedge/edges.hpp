@@ -14,7 +14,8 @@ namespace thermedge {
 // consecutive, in walking order. Pixel centres lie at integer coordinates.
 struct Edgels {
   std::vector<float> x, y;                   // px
-  std::vector<float> nx, ny;                 // unit normal, towards the warmer side
+  std::vector<float> nx, ny;                 // unit normal, towards the warmer side (preset paper:
+                                             // of the whole edge)
   std::vector<float> magnitude_counts;       // gradient across the edge, counts per px
   std::vector<float> position_sigma_px;      // standard deviation of the position along the normal
   std::vector<std::int32_t> edge;            // index into EdgeSet::edges

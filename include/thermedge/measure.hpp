@@ -36,7 +36,8 @@ struct SignificanceOptions {
 // a is the mean of max(nx^16, ny^16), 1 along an axis. Tests: a sixty-fourth of the frame's pixels,
 // which is how many apertures of 8 x 8 px it holds.
 void measure_edges(ImageView<const std::uint16_t> frame, double sigma_counts,
-                   const SignificanceOptions& options, EdgeSet& edges);
+                   ImageView<const std::int32_t> direction, const SignificanceOptions& options,
+                   EdgeSet& edges);
 
 // Normals from the shape alone, for edges that came without a frame: smoothed as above, to the
 // right of the walking direction as seen on the picture.
