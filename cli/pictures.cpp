@@ -168,12 +168,7 @@ class CountsDenoiser {
     copy_pixels(corrector_.run(frame, measured, *runner_), working_.view());
     const double sigma = told_sigma_ > 0 ? told_sigma_ : measured;
     return denoiser_.run_measured(working_, sigma, working_, *runner_).map([&] {
-      for (int y = 0; y < frame.height(); ++y) {
-        std::transform(
-            working_.row(y), working_.row(y) + frame.width(), counts_.row(y), [](float value) {
-              return static_cast<std::uint16_t>(std::clamp(value, 0.0F, 65535.0F) + 0.5F);
-            });
-      }
+      round_to_counts(working_, counts_);
       return ImageView<const std::uint16_t>(counts_.view());
     });
   }

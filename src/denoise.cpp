@@ -71,6 +71,14 @@ Status check_side(ImageView<const float> in) {
 
 }  // namespace
 
+void round_to_counts(ImageView<const float> in, ImageView<std::uint16_t> out) {
+  for (int y = 0; y < in.height(); ++y) {
+    std::transform(in.row(y), in.row(y) + in.width(), out.row(y), [](float value) {
+      return static_cast<std::uint16_t>(std::clamp(value, 0.0F, 65535.0F) + 0.5F);
+    });
+  }
+}
+
 struct Denoiser::Impl {
   explicit Impl(const DenoiseOptions& chosen)
       : options(chosen), options_status(check_denoise_options(chosen)) {}

@@ -71,6 +71,7 @@ struct Detector::Impl {
   Status detect_oriented(int bits);
   double least_noise();
   Status denoise_counts(int bits);
+  void show_denoised();
 
   void begin(int width, int height);
   void correct(ImageView<const std::uint16_t> frame);
@@ -194,19 +195,24 @@ Status Detector::Impl::denoise_counts(int bits) {
       !status) {
     return status;
   }
-  rounded.resize(result.width, result.height);
-  denoised.resize(result.width, result.height);
-  for (int y = 0; y < result.height; ++y) {
-    std::transform(working.row(y), working.row(y) + result.width, rounded.row(y), [](float value) {
-      return static_cast<std::uint16_t>(std::clamp(value, 0.0F, 65535.0F) + 0.5F);
-    });
-  }
-  result.denoised = denoised;
   if (bits == 8) {
-    copy_pixels(rounded.view(), denoised.view());
+    show_denoised();
     return {};
   }
+  denoised.resize(result.width, result.height);
+  result.denoised = denoised;
+  rounded.resize(result.width, result.height);
+  round_to_counts(working, rounded);
   return scale_to_8bit(rounded, options.scale, denoised);
+}
+
+// What is in grey levels already, rounded.
+void Detector::Impl::show_denoised() {
+  denoised.resize(result.width, result.height);
+  for (int y = 0; y < result.height; ++y) {
+    std::transform(working.row(y), working.row(y) + result.width, denoised.row(y), to_level);
+  }
+  result.denoised = denoised;
 }
 
 Status Detector::Impl::trace(ImageView<const std::uint8_t> map) {
@@ -275,14 +281,10 @@ Status Detector::Impl::denoise(int bits) {
       options.denoise.sigma_counts > 0 ? options.denoise.sigma_counts : result.noise.sigma_counts;
   const double levels_per_count = bits == 8 ? 1.0 : options.scale.gain;
   working.resize(result.width, result.height);
-  denoised.resize(result.width, result.height);
   copy_pixels(result.levels, working.view());
   const double sigma_levels = result.sigma_counts * levels_per_count;
   return denoiser.run_measured(working, sigma_levels, working, *runner).map([&] {
-    for (int y = 0; y < result.height; ++y) {
-      std::transform(working.row(y), working.row(y) + result.width, denoised.row(y), to_level);
-    }
-    result.denoised = denoised;
+    show_denoised();
   });
 }
 

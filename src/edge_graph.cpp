@@ -103,10 +103,8 @@ Status GraphTracer::run(ImageView<const std::uint8_t> edges, ImageView<const flo
 }
 
 void GraphTracer::prepare(ImageView<const std::uint8_t> edges, LinkedContours& curves) {
-  width_ = edges.width();
-  height_ = edges.height();
-  map_.resize(width_ + 2, height_ + 2);
-  neighbours_.resize(width_ + 2, height_ + 2);
+  map_.resize(edges.width() + 2, edges.height() + 2);
+  neighbours_.resize(map_.width(), map_.height());
   label_.resize(static_cast<std::size_t>(map_.stride() * map_.height()));
   fill_pixels(map_.view(), std::uint8_t{0});
   const std::size_t most = edges.size();
@@ -128,8 +126,8 @@ void GraphTracer::prepare(ImageView<const std::uint8_t> edges, LinkedContours& c
   curves.contours.junctions.reserve(most / 4 + 1);
   curves.links.reserve(2 * most_curves);
   order_.clear();
-  for (int y = 0; y < height_; ++y) {
-    for (int x = 0; x < width_; ++x) {
+  for (int y = 0; y < edges.height(); ++y) {
+    for (int x = 0; x < edges.width(); ++x) {
       if (edges(x, y) != 0) {
         map_(x + 1, y + 1) = 1;
         order_.push_back(static_cast<std::int32_t>((y + 1) * map_.stride() + x + 1));
@@ -178,6 +176,12 @@ void GraphTracer::find_neighbours() {
   }
 }
 
+// The first of the neighbours whose bits are set.
+std::int32_t GraphTracer::neighbour(std::int32_t pixel, unsigned bits) const {
+  const Pixel step = kAround[static_cast<std::size_t>(std::countr_zero(bits))];
+  return static_cast<std::int32_t>(pixel + offset_of(step, map_.stride()));
+}
+
 // A junction is a connected group of pixels with three or more neighbours.
 void GraphTracer::find_junctions() {
   junctions_.clear();
@@ -204,8 +208,7 @@ void GraphTracer::find_junctions() {
     for (std::size_t i = first; i < junction_pixels_.size(); ++i) {
       const std::int32_t pixel = junction_pixels_[i];
       for (unsigned bits = neighbours[pixel]; bits != 0; bits &= bits - 1) {
-        const Pixel step = kAround[static_cast<std::size_t>(std::countr_zero(bits))];
-        const auto next = static_cast<std::int32_t>(pixel + offset_of(step, map_.stride()));
+        const std::int32_t next = neighbour(pixel, bits);
         if (label[next] == kNone && is_node(next)) {
           add(next);
         }
@@ -233,8 +236,7 @@ void GraphTracer::walk(std::int32_t from) {
   for (bool found = true; found;) {
     found = false;
     for (unsigned bits = neighbours_.row(0)[from]; bits != 0 && !found; bits &= bits - 1) {
-      const Pixel step = kAround[static_cast<std::size_t>(std::countr_zero(bits))];
-      const auto next = static_cast<std::int32_t>(from + offset_of(step, map_.stride()));
+      const std::int32_t next = neighbour(from, bits);
       if (label[next] == kNone) {
         label[next] = kVisited;
         pixels_.push_back(next);
@@ -249,9 +251,7 @@ void GraphTracer::walk(std::int32_t from) {
 std::int32_t GraphTracer::junction_beside(std::int32_t pixel, std::int32_t other_than) const {
   std::int32_t found = kNone;
   for (unsigned bits = neighbours_.row(0)[pixel]; bits != 0; bits &= bits - 1) {
-    const Pixel step = kAround[static_cast<std::size_t>(std::countr_zero(bits))];
-    const std::int32_t junction =
-        label_[static_cast<std::size_t>(pixel + offset_of(step, map_.stride()))];
+    const std::int32_t junction = label_[static_cast<std::size_t>(neighbour(pixel, bits))];
     if (junction >= 0 && (found == kNone || found == other_than)) {
       found = junction;
     }
@@ -280,8 +280,7 @@ void GraphTracer::add_segment(std::int32_t seed) {
   const bool loop = count > 3 && front_junction == kNone && back_junction == kNone &&
                     squared_distance(a, b) <= 2 &&
                     std::popcount(unsigned{neighbours_.row(0)[front]}) == 2;
-  segments_.push_back(
-      {{static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(count)}, loop});
+  segments_.push_back({static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(count)});
   const auto self = static_cast<std::int32_t>(ends_.size());
   ends_.push_back({front_junction, loop ? self + 1 : kNone});
   ends_.push_back({back_junction, loop ? self : kNone});

@@ -202,6 +202,7 @@ struct OrientedEdges::Impl {
       : options(chosen),
         derivative(std::clamp(chosen.across_px, 0.5, 2.0)),
         fine(std::clamp(chosen.fine_px, 0.5, 2.0)),
+        fine_noise_gain(noise_gain(fine)),
         line_weight(line_weights(chosen)) {
     for (int i = 0; i < kDirections; ++i) {
       lines[static_cast<std::size_t>(i)] = make_line(i, line_weight, derivative);
@@ -220,10 +221,12 @@ struct OrientedEdges::Impl {
   void suppress(int y_begin, int y_end);
   void merge_fine();
   [[nodiscard]] float prominence_at(int x, int y) const;
+  void classify(int x, int y);
 
   OrientedOptions options;
   Derivative derivative;
   Derivative fine;
+  double fine_noise_gain;
   LineWeights line_weight;
   std::array<Line, kDirections> lines{};
   std::array<Across, 2 * kDirections> steps{};
@@ -301,7 +304,7 @@ void OrientedEdges::Impl::find_fine(Runner& runner, double sigma_counts) {
       detail::magnitude_row(gx.row(y), gy.row(y), width, fine_magnitude.row(y));
     }
   });
-  const double high = options.fine_above * noise_gain(fine) * sigma_counts;
+  const double high = options.fine_above * fine_noise_gain * sigma_counts;
   for_each_band(runner, [&](int, int y_begin, int y_end) {
     for (int y = y_begin; y < y_end; ++y) {
       std::uint8_t* classes = fine_classes.row(y);
@@ -353,7 +356,7 @@ float OrientedEdges::Impl::prominence_at(int x, int y) const {
   const auto side = [&](int sign) {
     int side_x = x + sign * step.side_x;
     int side_y = y + sign * step.side_y;
-    if (!strength.view().contains(side_x, side_y) || side_x >= width) {
+    if (!edges.view().contains(side_x, side_y)) {
       side_x = detail::mirrored(side_x, width);
       side_y = detail::mirrored(side_y, height);
     }
@@ -363,14 +366,20 @@ float OrientedEdges::Impl::prominence_at(int x, int y) const {
   return strength(x, y) - 0.5F * (side(1) + side(-1));
 }
 
+// Sets the prominence and the class, before hysteresis, of a pixel on a ridge.
+void OrientedEdges::Impl::classify(int x, int y) {
+  prominence(x, y) = prominence_at(x, y);
+  edges(x, y) = prominence(x, y) > static_cast<float>(options.high)  ? detail::kStrongEdge
+                : prominence(x, y) > static_cast<float>(options.low) ? detail::kWeakEdge
+                                                                     : detail::kNoEdge;
+}
+
 // Leaves in `edges` the class of each pixel before hysteresis.
 void OrientedEdges::Impl::suppress(int y_begin, int y_end) {
   const auto low = static_cast<float>(options.low);
-  const auto high = static_cast<float>(options.high);
   const std::ptrdiff_t stride = strength.stride();
   for (int y = y_begin; y < y_end; ++y) {
-    std::uint8_t* classes = edges.row(y);
-    std::fill_n(classes, width, detail::kNoEdge);
+    std::fill_n(edges.row(y), width, detail::kNoEdge);
     if (y == 0 || y == height - 1) {
       continue;
     }
@@ -385,10 +394,7 @@ void OrientedEdges::Impl::suppress(int y_begin, int y_end) {
       const float ahead = at[first] + step.share * (at[second] - at[first]);
       const float behind = at[-first] + step.share * (at[-second] - at[-first]);
       if (*at >= ahead && *at > behind) {
-        prominence(x, y) = prominence_at(x, y);
-        classes[x] = prominence(x, y) > high  ? detail::kStrongEdge
-                     : prominence(x, y) > low ? detail::kWeakEdge
-                                              : detail::kNoEdge;
+        classify(x, y);
       }
     }
   }
@@ -397,8 +403,6 @@ void OrientedEdges::Impl::suppress(int y_begin, int y_end) {
 // Near fine edges only they are edges.
 void OrientedEdges::Impl::merge_fine() {
   constexpr int kReach = 2;
-  const auto low = static_cast<float>(options.low);
-  const auto high = static_cast<float>(options.high);
   for (int y = 1; y + 1 < height; ++y) {
     for (int x = 1; x + 1 < width; ++x) {
       if (fine_classes(x, y) == detail::kNoEdge) {
@@ -416,10 +420,7 @@ void OrientedEdges::Impl::merge_fine() {
   for (int y = 1; y + 1 < height; ++y) {
     for (int x = 1; x + 1 < width; ++x) {
       if (fine_classes(x, y) != detail::kNoEdge) {
-        prominence(x, y) = prominence_at(x, y);
-        edges(x, y) = prominence(x, y) > high  ? detail::kStrongEdge
-                      : prominence(x, y) > low ? detail::kWeakEdge
-                                               : detail::kNoEdge;
+        classify(x, y);
       }
     }
   }

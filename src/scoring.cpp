@@ -79,34 +79,20 @@ double edge_score(const EdgeScoreTerms& terms) {
 
 Status Scorer::run(const LinkedContours& linked, const CornerSet& corners, int width, int height,
                    EdgeSet& edges) {
-  edges.clear();
-  if (Status status = check_ranges(options_, "scoring."); !status) {
-    return status;
-  }
-  assert(corners.ranges.size() == linked.contours.contours.size());
-  prepare(linked, corners, edges);
-  collect_connections(linked);
-  score_contours(linked, corners, width, height);
-  fill(linked, corners, edges);
-  return {};
+  return score_contours(linked, corners, width, height, edges).map([&] {
+    fill(linked, corners, edges);
+  });
 }
 
 Status Scorer::run(const LinkedContours& linked, const CornerSet& corners,
                    ImageView<const float> prominence, EdgeSet& edges) {
-  edges.clear();
-  if (Status status = check_ranges(options_, "scoring."); !status) {
-    return status;
-  }
-  assert(corners.ranges.size() == linked.contours.contours.size());
-  prepare(linked, corners, edges);
-  collect_connections(linked);
-  score_contours(linked, corners, prominence.width(), prominence.height());
-  score_by_prominence(linked.contours, prominence);
-  fill(linked, corners, edges);
-  for (Edge& edge : edges.edges) {
-    edge.score = -edge.score;
-  }
-  return {};
+  return score_contours(linked, corners, prominence.width(), prominence.height(), edges).map([&] {
+    score_by_prominence(linked.contours, prominence);
+    fill(linked, corners, edges);
+    for (Edge& edge : edges.edges) {
+      edge.score = -edge.score;
+    }
+  });
 }
 
 void Scorer::score_by_prominence(const ContourSet& contours, ImageView<const float> prominence) {
@@ -157,8 +143,16 @@ void Scorer::collect_connections(const LinkedContours& linked) {
   connections_.erase(std::unique(connections_.begin(), connections_.end()), connections_.end());
 }
 
-void Scorer::score_contours(const LinkedContours& linked, const CornerSet& corners,
-                            double frame_width, double frame_height) {
+// By ES.
+Status Scorer::score_contours(const LinkedContours& linked, const CornerSet& corners,
+                              double frame_width, double frame_height, EdgeSet& edges) {
+  edges.clear();
+  if (Status status = check_ranges(options_, "scoring."); !status) {
+    return status;
+  }
+  assert(corners.ranges.size() == linked.contours.contours.size());
+  prepare(linked, corners, edges);
+  collect_connections(linked);
   order_.clear();
   auto connection = connections_.begin();
   for (std::uint32_t i = 0; i < linked.contours.contours.size(); ++i) {
@@ -179,6 +173,7 @@ void Scorer::score_contours(const LinkedContours& linked, const CornerSet& corne
     const double es = edge_score(terms);
     order_.push_back({es, es, contour.points.count, i});
   }
+  return {};
 }
 
 void Scorer::rank_contours() {

@@ -124,20 +124,19 @@ class StagePanels {
 
   [[nodiscard]] Panel edge_pixels() const {
     const double share = 1 - share_of_level(found_.edge_map, 0);
-    if (options_.edges == EdgeMethod::kOriented) {
-      return panel("Edge pixels (oriented kernels)",
-                   fmt::format("{:.0f} pixels, {:.1f} % of the frame; prominence above {:.2f}, "
-                               "connected down to {:.2f}, in units of the noise.",
-                               share * static_cast<double>(found_.edge_map.size()), 100 * share,
-                               found_.canny_high, found_.canny_low),
-                   map_picture(found_.edge_map));
-    }
-    return panel("Edge pixels (Canny)",
-                 fmt::format("{:.0f} pixels, {:.1f} % of the frame; Sobel magnitude above {:.1f}, "
-                             "connected down to {:.1f} levels.",
-                             share * static_cast<double>(found_.edge_map.size()), 100 * share,
-                             found_.canny_high, found_.canny_low),
-                 map_picture(found_.edge_map));
+    const bool oriented = options_.edges == EdgeMethod::kOriented;
+    const std::string thresholds =
+        oriented ? fmt::format(
+                       "prominence above {:.2f}, connected down to {:.2f}, in units of the "
+                       "noise",
+                       found_.canny_high, found_.canny_low)
+                 : fmt::format("Sobel magnitude above {:.1f}, connected down to {:.1f} levels",
+                               found_.canny_high, found_.canny_low);
+    return panel(
+        oriented ? "Edge pixels (oriented kernels)" : "Edge pixels (Canny)",
+        fmt::format("{:.0f} pixels, {:.1f} % of the frame; {}.",
+                    share * static_cast<double>(found_.edge_map.size()), 100 * share, thresholds),
+        map_picture(found_.edge_map));
   }
 
   [[nodiscard]] Panel contours() const {

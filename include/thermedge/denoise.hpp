@@ -1,6 +1,7 @@
 // Denoisers for single frames: Gaussian, non-local means, BM3D.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 
 #include "thermedge/image.hpp"
@@ -52,6 +53,9 @@ struct DenoiseOptions {
   Bm3dOptions bm3d;
   RippleOptions ripple;
 };
+
+// To the nearest whole counts, within 0..65535. `out` has the size of `in`. Thread-safe.
+void round_to_counts(ImageView<const float> in, ImageView<std::uint16_t> out);
 
 // Runs the chosen method. Holds the scratch memory of a frame size: after the second frame of one
 // size nothing is allocated. One Denoiser per thread; the work is spread over `runner`.

@@ -39,12 +39,8 @@ class GraphTracer {
                            LinkedContours& curves);
 
  private:
-  // A run of pixels between junctions or free ends. Ends are numbered: 2 i is the first pixel of
-  // segment i, 2 i + 1 the last one.
-  struct Segment {
-    Range pixels;  // in pixels_
-    bool loop;     // without a junction
-  };
+  // A segment is a run of pixels between junctions or free ends. Ends are numbered: 2 i is the
+  // first pixel of segment i, 2 i + 1 the last one.
   struct End {
     std::int32_t junction;  // that it touches, -1: none
     std::int32_t partner;   // end that it goes on with, -1: none
@@ -62,9 +58,10 @@ class GraphTracer {
   void add_segment(std::int32_t seed);
   void walk(std::int32_t from);
   void join_segments();
+  [[nodiscard]] std::int32_t neighbour(std::int32_t pixel, unsigned bits) const;
   [[nodiscard]] std::int32_t junction_beside(std::int32_t pixel, std::int32_t other_than) const;
   [[nodiscard]] std::span<const std::int32_t> pixels_of(std::size_t segment) const {
-    return slice(pixels_, segments_[segment].pixels);
+    return slice(pixels_, segments_[segment]);
   }
   [[nodiscard]] std::int32_t pixel_at(std::int32_t end) const;
   [[nodiscard]] Pixel position(std::int32_t pixel) const;
@@ -77,7 +74,6 @@ class GraphTracer {
   void connect_ends(LinkedContours& curves);
 
   GraphOptions options_;
-  int width_ = 0, height_ = 0;
   Image<std::uint8_t> map_;           // with a border of 1 pixel; 1: edge
   Image<std::uint8_t> neighbours_;    // a bit for each step to a connected pixel
   std::vector<std::int32_t> label_;   // junction of a pixel, or what has become of it
@@ -85,7 +81,7 @@ class GraphTracer {
   std::vector<std::int32_t> pixels_;  // of segments
   std::vector<std::int32_t> junction_pixels_;
   std::vector<Range> junctions_;  // in junction_pixels_
-  std::vector<Segment> segments_;
+  std::vector<Range> segments_;   // in pixels_
   std::vector<End> ends_;
   std::vector<std::uint8_t> used_;       // segments that are part of a curve
   std::vector<std::int32_t> ends_at_;    // ends by junction

@@ -23,8 +23,9 @@ struct OrientedOptions {
 // Of one frame; the views live in the object that made them, until its next run.
 struct OrientedResult {
   ImageView<const float> strength;          // largest response of all orientations, in sigma
-  ImageView<const std::int32_t> direction;  // whose: the edge runs at direction * 15 degrees,
-                                            // from the x axis towards the y axis
+  ImageView<const std::int32_t> direction;  // whose, 0..23: the edge runs at direction * 15
+                                            // degrees from the x axis towards the y axis, and the
+                                            // warmer side lies 90 degrees further on
   ImageView<const float> prominence;        // of edge pixels: strength over that of what lies
                                             // 4 px to both sides; slopes have next to none
   ImageView<const std::uint8_t> edges;      // 255 edge, 0 none

@@ -77,8 +77,8 @@ class Scorer {
 
   void prepare(const LinkedContours& linked, const CornerSet& corners, EdgeSet& edges);
   void collect_connections(const LinkedContours& linked);
-  void score_contours(const LinkedContours& linked, const CornerSet& corners, double frame_width,
-                      double frame_height);
+  [[nodiscard]] Status score_contours(const LinkedContours& linked, const CornerSet& corners,
+                                      double frame_width, double frame_height, EdgeSet& edges);
   void score_by_prominence(const ContourSet& contours, ImageView<const float> prominence);
   void fill(const LinkedContours& linked, const CornerSet& corners, EdgeSet& edges);
   void rank_contours();

@@ -40,39 +40,9 @@ std::string fingerprint(const Detection& detection) {
   return json.substr(0, json.find("\"stats\""));
 }
 
-class EveryDenoiser : public testing::TestWithParam<DenoiseMethod> {};
-
-TEST_P(EveryDenoiser, GivesTheSameEdgesForAllThreadCountsAndSimdTargets) {
+// For all thread counts and SIMD targets, on a frame with more than three kept edges.
+void expect_the_same_everywhere(DetectorOptions options) {
   const auto frame = small_desk(20);
-  DetectorOptions options;
-  options.denoise.method = GetParam();
-  options.contours.min_component_px = 10;
-  std::string expected;
-  test::for_each_simd_target([&](const std::string&) {
-    for (const int threads : {1, 2, 5}) {
-      options.threads = threads;
-      Detector one = detector(options);
-      const auto detection = one.detect(frame.counts);
-      ASSERT_TRUE(detection);
-      ASSERT_GT((*detection)->edges.edges.size(), 3U);
-      const std::string found = fingerprint(**detection);
-      expected = expected.empty() ? found : expected;
-      EXPECT_EQ(found, expected) << threads << " threads";
-    }
-  });
-}
-
-INSTANTIATE_TEST_SUITE_P(All, EveryDenoiser,
-                         testing::Values(DenoiseMethod::kNone, DenoiseMethod::kGaussian,
-                                         DenoiseMethod::kNlm, DenoiseMethod::kBm3d),
-                         [](const auto& method) {
-                           return std::string(
-                               kDenoiseMethods[static_cast<std::size_t>(method.param)].name);
-                         });
-
-TEST(RobustDetector, GivesTheSameEdgesForAllThreadCountsAndSimdTargets) {
-  const auto frame = small_desk(20);
-  DetectorOptions options = preset_options(Preset::kRobust);
   std::string expected;
   test::for_each_simd_target([&](const std::string&) {
     for (const int threads : {1, 2, 5}) {
@@ -86,6 +56,38 @@ TEST(RobustDetector, GivesTheSameEdgesForAllThreadCountsAndSimdTargets) {
       EXPECT_EQ(found, expected) << threads << " threads";
     }
   });
+}
+
+void expect_all_sizes_taken(const DetectorOptions& options, int smallest, int largest) {
+  Detector one = detector(options);
+  for (int height = smallest; height <= largest; height += 3) {
+    for (int width = smallest; width <= largest; ++width) {
+      const auto frame = test::noise_image<std::uint16_t>(width, height, 3000, 100, 5);
+      const auto detection = one.detect(frame);
+      ASSERT_TRUE(detection) << width << "x" << height << ": " << detection.error().message;
+    }
+  }
+}
+
+class EveryDenoiser : public testing::TestWithParam<DenoiseMethod> {};
+
+TEST_P(EveryDenoiser, GivesTheSameEdgesForAllThreadCountsAndSimdTargets) {
+  DetectorOptions options;
+  options.denoise.method = GetParam();
+  options.contours.min_component_px = 10;
+  expect_the_same_everywhere(options);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, EveryDenoiser,
+                         testing::Values(DenoiseMethod::kNone, DenoiseMethod::kGaussian,
+                                         DenoiseMethod::kNlm, DenoiseMethod::kBm3d),
+                         [](const auto& method) {
+                           return std::string(
+                               kDenoiseMethods[static_cast<std::size_t>(method.param)].name);
+                         });
+
+TEST(RobustDetector, GivesTheSameEdgesForAllThreadCountsAndSimdTargets) {
+  expect_the_same_everywhere(preset_options(Preset::kRobust));
 }
 
 // Noise with column and row offsets and dead pixels: one false edge in ten frames is allowed.
@@ -156,14 +158,7 @@ TEST(RobustDetector, IsBlindToOffsetAndGainOfTheCounts) {
 }
 
 TEST(RobustDetector, TakesEveryFrameFromEightPixelsUp) {
-  Detector one = detector(preset_options(Preset::kRobust));
-  for (int height = 8; height <= 26; height += 3) {
-    for (int width = 8; width <= 26; ++width) {
-      const auto frame = test::noise_image<std::uint16_t>(width, height, 3000, 100, 5);
-      const auto detection = one.detect(frame);
-      ASSERT_TRUE(detection) << width << "x" << height << ": " << detection.error().message;
-    }
-  }
+  expect_all_sizes_taken(preset_options(Preset::kRobust), 8, 26);
 }
 
 TEST(RobustDetector, SaysWhyEdgesWereDropped) {
@@ -228,16 +223,7 @@ TEST(Detector, KeepsBudgetsAndRanks) {
   }
 }
 
-TEST(Detector, TakesEveryFrameFromOnePixelUp) {
-  Detector one = detector({});
-  for (int height = 1; height <= 20; height += 3) {
-    for (int width = 1; width <= 20; ++width) {
-      const auto frame = test::noise_image<std::uint16_t>(width, height, 3000, 100, 5);
-      const auto detection = one.detect(frame);
-      ASSERT_TRUE(detection) << width << "x" << height << ": " << detection.error().message;
-    }
-  }
-}
+TEST(Detector, TakesEveryFrameFromOnePixelUp) { expect_all_sizes_taken({}, 1, 20); }
 
 TEST(Detector, FindsNothingInAFlatFrame) {
   Image<std::uint16_t> flat(100, 80);

@@ -65,22 +65,27 @@ std::vector<Image<std::uint16_t>> growing_frames() {
   return frames;
 }
 
-TEST(Allocation, TheRobustDetectorAllocatesNothingAfterTheSecondFrame) {
+void expect_none_after_the_second_frame(const DetectorOptions& options) {
+  auto detector = Detector::create(options);
+  ASSERT_TRUE(detector);
+  const auto frames = growing_frames();
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const long before = allocations;
+    const auto detection = detector->detect(frames[i]);
+    const long spent = allocations - before;
+    ASSERT_TRUE(detection);
+    if (i >= 2) {
+      EXPECT_EQ(spent, 0) << "frame " << i << " with " << (*detection)->edges.edges.size()
+                          << " edges, " << options.threads << " threads";
+    }
+  }
+}
+
+TEST(Allocation, OfTheRobustDetectorIsNoneAfterTheSecondFrame) {
   for (const int threads : {1, 2}) {
     DetectorOptions options = preset_options(Preset::kRobust);
     options.threads = threads;
-    auto detector = Detector::create(options);
-    ASSERT_TRUE(detector);
-    const auto frames = growing_frames();
-    for (std::size_t i = 0; i < frames.size(); ++i) {
-      const long before = allocations;
-      const auto detection = detector->detect(frames[i]);
-      const long spent = allocations - before;
-      ASSERT_TRUE(detection);
-      if (i >= 2) {
-        EXPECT_EQ(spent, 0) << "frame " << i << ", " << threads << " threads";
-      }
-    }
+    expect_none_after_the_second_frame(options);
   }
 }
 
@@ -93,19 +98,7 @@ TEST_P(AllocationOf, ADetectorIsNoneAfterTheSecondFrame) {
   options.contours.min_component_px = 0;  // as many curves as there can be
   options.contours.min_length_px = 2;
   options.selection.keep_edges = 0;
-  auto detector = Detector::create(options);
-  ASSERT_TRUE(detector);
-  const auto frames = growing_frames();
-  for (std::size_t i = 0; i < frames.size(); ++i) {
-    const long before = allocations;
-    const auto detection = detector->detect(frames[i]);
-    const long spent = allocations - before;
-    ASSERT_TRUE(detection);
-    if (i >= 2) {
-      EXPECT_EQ(spent, 0) << "frame " << i << " with " << (*detection)->edges.edges.size()
-                          << " edges";
-    }
-  }
+  expect_none_after_the_second_frame(options);
 }
 
 std::string name_of(const testing::TestParamInfo<std::tuple<DenoiseMethod, int>>& test) {
