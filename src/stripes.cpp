@@ -4,20 +4,26 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <functional>
+#include <iterator>
 #include <span>
 
+#include "robust_line.hpp"
 #include "simd/lag_sums.hpp"
+#include "stripe_mask.hpp"
 
 namespace thermedge {
 namespace {
 
-constexpr std::array kLags = {1, 2, 3, 4, 6, 8, 12};
+constexpr std::array kLags = {1, 2, 3, 4, 6, 8};
 constexpr int kLargestLag = kLags.back();
 constexpr int kSmallestSide = 64;
-constexpr int kPartRows = 2 * detail::kMostLagRows;  // height of a part of a column
-// Differences beyond this many sigma are edges of the scene.
+constexpr int kPartRows = 2 * detail::kMostLagRows;  // that one task adds up
+// Differences beyond this many sigma are edges of the scene, whatever lies between.
 constexpr double kEdgeSigmas = 5;
-constexpr double kEdgeZ = 3.5;  // of an edge within a part, or two parts together
+// Gradients, in units of what pixel noise makes of them, that are edges. The stripes themselves
+// are still in the way in the first round.
+constexpr std::array kEdgeGradients = {1e9, 5.0, 4.5};
 constexpr double kJumpZ = 4.5;  // of a lasting jump of the profile
 constexpr int kMostJumps = 24;
 constexpr std::array kJumpWindows = {5, 8, 12, 18, 26};
@@ -29,10 +35,8 @@ constexpr double kStandOut = 1.5;
 // jumps; and for the result, where stripes have a third of the noise. Stronger ones have a weaker
 // prior.
 constexpr double kNoPrior = 1e4;
-constexpr double kPrior = 4;
+constexpr double kPrior = 2;
 constexpr double kUsualStripes = 1.0 / 3;
-constexpr int kSlopeReach = 40;  // columns to either side whose slopes count
-constexpr int kRounds = 3;       // of: edges from the corrected frame, offsets from what is no edge
 
 std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
@@ -41,9 +45,13 @@ class ColumnOffsets {
  public:
   void prepare(int columns, int rows);
 
-  // Fills offsets() in units of `sigma`; returns whether there are stripes.
-  bool measure(ImageView<const std::uint16_t> counts, double sigma, Runner& runner);
+  // Fills offsets(), in units of `sigma`, from pairs of pixels with no edge between them: `reach`
+  // as StripeMask gives it. Returns whether there are stripes.
+  bool measure(ImageView<const std::uint16_t> counts, ImageView<const std::uint16_t> reach,
+               double sigma, Runner& runner);
   [[nodiscard]] std::span<const double> offsets() const { return offsets_; }
+  // The offsets, and the slope of the scene that goes on from side to side.
+  [[nodiscard]] std::span<const double> background() const { return background_; }
 
  private:
   struct Pair {
@@ -60,16 +68,15 @@ class ColumnOffsets {
   }
   [[nodiscard]] Pair& pair(int lag_index, int x) { return pairs_[index(lag_index * columns_ + x)]; }
 
-  void add_up(ImageView<const std::uint16_t> counts, int part, int limit);
-  void find_edges(double sigma);
-  void mark_edges(std::span<const double> steps, double deviation, int first_part, int parts);
+  void add_up(ImageView<const std::uint16_t> counts, ImageView<const std::uint16_t> reach, int part,
+              int limit);
   void find_pairs(double sigma);
-  void find_slopes();
-  void remove_slopes();
+  detail::Line remove_slope();
   void number_segments(std::span<const int> jumps);
   void solve(double scale, std::span<const int> jumps, std::span<double> result);
   void find_jumps(double deviation);
   [[nodiscard]] double jump_z(int x, double deviation) const;
+  [[nodiscard]] double variance_of_noise();
   double white_deviation(std::span<const double> profile);
 
   int columns_ = 0;
@@ -77,12 +84,10 @@ class ColumnOffsets {
   int parts_ = 0;
   std::vector<Sum> sums_;                             // of each part, lag and column
   std::vector<std::int16_t> row_sums_, row_numbers_;  // of the tasks
-  std::vector<int> edges_before_;                     // of each part: edge columns before column x
-  std::vector<std::uint8_t> is_edge_;
-  std::vector<double> steps_;  // of each part
-  std::vector<Pair> pairs_;    // of each lag
-  std::vector<double> band_;   // of the normal equations, row by row
-  std::vector<double> profile_, offsets_, slopes_, sorted_, cumulated_, clearness_;
+  std::vector<Pair> pairs_;                           // of each lag
+  std::vector<double> band_;                          // of the normal equations, row by row
+  std::vector<double> profile_, offsets_, background_, sorted_, cumulated_, clearness_;
+  std::vector<detail::WeightedPoint> slopes_;
   std::vector<int> jumps_;  // a jump is between a column and the next
   std::vector<int> reach_left_, reach_right_, segment_;
 };
@@ -96,15 +101,13 @@ void ColumnOffsets::prepare(int columns, int rows) {
   const std::size_t padded = n + Image<std::int16_t>::kAlignmentBytes;
   row_sums_.resize(index(parts_) * padded);
   row_numbers_.resize(index(parts_) * padded);
-  edges_before_.resize(index(parts_) * (n + 1));
-  is_edge_.resize(index(parts_) * n);
-  steps_.resize(index(parts_) * n);
   pairs_.resize(kLags.size() * n);
   band_.resize((kLargestLag + 1) * n);
   profile_.resize(n);
-  offsets_.resize(n);
-  slopes_.resize(n);
-  sorted_.resize(n);
+  offsets_.assign(n, 0.0);
+  background_.assign(n, 0.0);
+  sorted_.reserve(n);
+  slopes_.reserve(n);
   cumulated_.resize(n + 1);
   clearness_.resize(n);
   jumps_.reserve(kMostJumps);
@@ -113,7 +116,8 @@ void ColumnOffsets::prepare(int columns, int rows) {
   segment_.resize(n);
 }
 
-void ColumnOffsets::add_up(ImageView<const std::uint16_t> counts, int part, int limit) {
+void ColumnOffsets::add_up(ImageView<const std::uint16_t> counts,
+                           ImageView<const std::uint16_t> reach, int part, int limit) {
   const std::size_t padded = row_sums_.size() / index(parts_);
   std::int16_t* sums = row_sums_.data() + index(part) * padded;
   std::int16_t* numbers = row_numbers_.data() + index(part) * padded;
@@ -123,7 +127,9 @@ void ColumnOffsets::add_up(ImageView<const std::uint16_t> counts, int part, int 
     std::fill_n(&sum(part, i, 0), columns_, Sum{});
     for (int y = part * kPartRows; y < end; y += detail::kMostLagRows) {
       const int rows = std::min(detail::kMostLagRows, end - y);
-      detail::lag_sums(counts.crop(0, y, columns_, rows), kLags[index(i)], limit, sums, numbers);
+      detail::lag_sums(counts.crop(0, y, columns_, rows),
+                       reach.crop(0, y / 2, columns_, (rows + 1) / 2), kLags[index(i)], limit, sums,
+                       numbers);
       for (int x = 0; x < pairs; ++x) {
         sum(part, i, x).sum += sums[x];
         sum(part, i, x).number += numbers[x];
@@ -132,117 +138,44 @@ void ColumnOffsets::add_up(ImageView<const std::uint16_t> counts, int part, int 
   }
 }
 
-void ColumnOffsets::mark_edges(std::span<const double> steps, double deviation, int first_part,
-                               int parts) {
-  for (int x = 0; x < columns_; ++x) {
-    if (std::abs(steps[index(x)]) <= kEdgeZ * deviation) {
-      continue;
-    }
-    for (int part = first_part; part < first_part + parts; ++part) {
-      for (int i = std::max(x - 1, 0); i <= std::min(x + 1, columns_ - 1); ++i) {
-        is_edge_[index(part * columns_ + i)] = 1;
-      }
-    }
-  }
-}
-
-// Columns at which a part, or two of them together, steps: the mean of the two columns before
-// against that of the two behind, less the offsets known so far.
-void ColumnOffsets::find_edges(double sigma) {
-  constexpr int kLag2 = 1;  // indices of these lags
-  constexpr int kLag4 = 3;
-  const auto mean = [&](const Sum& sum) {
-    return sum.number > 0 ? sum.sum / (sigma * sum.number) : 0;
-  };
-  std::fill(is_edge_.begin(), is_edge_.end(), std::uint8_t{0});
-  std::fill(steps_.begin(), steps_.end(), 0.0);
-  for (int part = 0; part < parts_; ++part) {
-    for (int x = 2; x < columns_ - 2; ++x) {
-      const double near =
-          mean(sum(part, kLag2, x - 1)) - (offsets_[index(x + 1)] - offsets_[index(x - 1)]);
-      const double far =
-          mean(sum(part, kLag4, x - 2)) - (offsets_[index(x + 2)] - offsets_[index(x - 2)]);
-      steps_[index(part * columns_ + x)] = (near + far) / 2;
-    }
-  }
-  const auto steps_of = [&](int part) {
-    return std::span(steps_).subspan(index(part * columns_), index(columns_));
-  };
-  const double deviation = 1 / std::sqrt(static_cast<double>(kPartRows));
-  for (int part = 0; part < parts_; ++part) {
-    mark_edges(steps_of(part), deviation, part, 1);
-    if (part + 1 < parts_) {
-      const auto next = steps_of(part + 1);
-      std::transform(next.begin(), next.end(), steps_of(part).begin(), profile_.begin(),
-                     [](double a, double b) { return (a + b) / 2; });
-      mark_edges(profile_, deviation / std::sqrt(2.0), part, 2);
-    }
-  }
-}
-
-// The mean difference of each pair of columns over the parts without an edge between them. A pair
-// of neighbours without enough of these takes all parts, so that the chain does not break.
+// The mean difference of each pair of columns. Neighbours without enough rows between which there
+// is no edge are taken for equal, so that the chain does not break.
 void ColumnOffsets::find_pairs(double sigma) {
-  for (int part = 0; part < parts_; ++part) {
-    int* before = &edges_before_[index(part * (columns_ + 1))];
-    before[0] = 0;
-    for (int x = 0; x < columns_; ++x) {
-      before[x + 1] = before[x] + is_edge_[index(part * columns_ + x)];
-    }
-  }
   for (int i = 0; i < static_cast<int>(kLags.size()); ++i) {
     const int lag = kLags[index(i)];
     for (int x = 0; x + lag < columns_; ++x) {
-      Sum clean;
       Sum all;
       for (int part = 0; part < parts_; ++part) {
-        const Sum& of_part = sum(part, i, x);
-        const int* before = &edges_before_[index(part * (columns_ + 1))];
-        const bool is_clean = before[x + lag + 1] == before[x];
-        clean.sum += is_clean ? of_part.sum : 0;
-        clean.number += is_clean ? of_part.number : 0;
-        all.sum += of_part.sum;
-        all.number += of_part.number;
+        all.sum += sum(part, i, x).sum;
+        all.number += sum(part, i, x).number;
       }
-      const bool enough = clean.number >= kLeastShare * rows_;
-      const Sum& used = enough || lag > 1 ? clean : all;
-      Pair& found = pair(i, x);
-      found.difference = used.number > 0 ? used.sum / (sigma * used.number) : 0;
-      found.weight = enough ? static_cast<double>(clean.number) / rows_ : lag == 1 ? 1 : 0;
+      const bool enough = all.number >= kLeastShare * rows_;
+      pair(i, x) = enough ? Pair{all.sum / (sigma * all.number), 1.0 * all.number / rows_}
+                          : Pair{0, lag == 1 ? 1.0 : 0.0};
     }
   }
 }
 
-// What a smooth scene makes of the differences: the median of the slopes around over the longest
-// lag, those across jumps left out.
-void ColumnOffsets::find_slopes() {
-  number_segments(jumps_);
+// What a smooth scene makes of the differences, such as that of a lens darker towards the corners:
+// a slope that changes evenly from side to side, seen over the longest lag.
+detail::Line ColumnOffsets::remove_slope() {
   constexpr int kLongest = static_cast<int>(kLags.size()) - 1;
-  const int count = columns_ - kLargestLag;  // pairs of the longest lag
-  for (int x = 0; x < count; ++x) {
-    const int begin = std::max(x - kSlopeReach, 0);
-    const int end = std::min(x + kSlopeReach + 1, count);
-    std::size_t size = 0;
-    for (int i = begin; i < end; ++i) {
-      if (pair(kLongest, i).weight > 0 && segment_[index(i)] == segment_[index(i + kLargestLag)]) {
-        sorted_[size++] = pair(kLongest, i).difference / kLargestLag;
-      }
+  const auto middle_of = [](int x, int lag) { return x + 0.5 * lag; };
+  slopes_.clear();
+  for (int x = 0; x + kLargestLag < columns_; ++x) {
+    const Pair& seen = pair(kLongest, x);
+    if (seen.weight > 0) {
+      slopes_.push_back({middle_of(x, kLargestLag), seen.difference / kLargestLag, seen.weight});
     }
-    const auto middle = sorted_.begin() + static_cast<std::ptrdiff_t>(size / 2);
-    std::nth_element(sorted_.begin(), middle, sorted_.begin() + static_cast<std::ptrdiff_t>(size));
-    slopes_[index(x)] = size > 0 ? *middle : x > 0 ? slopes_[index(x - 1)] : 0;
   }
-}
-
-void ColumnOffsets::remove_slopes() {
-  const int count = columns_ - kLargestLag;
+  const detail::Line slope = detail::robust_line(slopes_, sorted_);
   for (int i = 0; i < static_cast<int>(kLags.size()); ++i) {
     const int lag = kLags[index(i)];
     for (int x = 0; x + lag < columns_; ++x) {
-      const int centre = x + (lag - kLargestLag) / 2;
-      pair(i, x).difference -= lag * slopes_[index(std::clamp(centre, 0, count - 1))];
+      pair(i, x).difference -= lag * slope.at(middle_of(x, lag));
     }
   }
+  return slope;
 }
 
 void ColumnOffsets::number_segments(std::span<const int> jumps) {
@@ -313,12 +246,12 @@ void ColumnOffsets::solve(double scale, std::span<const int> jumps, std::span<do
 
 // Of the white part of a profile: the MAD of its second differences, of which a jump spoils two.
 double ColumnOffsets::white_deviation(std::span<const double> profile) {
-  const std::size_t count = profile.size() - 2;
-  for (std::size_t x = 0; x < count; ++x) {
-    sorted_[x] = std::abs(profile[x] - 2 * profile[x + 1] + profile[x + 2]);
+  sorted_.clear();
+  for (std::size_t x = 0; x + 2 < profile.size(); ++x) {
+    sorted_.push_back(std::abs(profile[x] - 2 * profile[x + 1] + profile[x + 2]));
   }
-  const auto middle = sorted_.begin() + static_cast<std::ptrdiff_t>(count / 2);
-  std::nth_element(sorted_.begin(), middle, sorted_.begin() + static_cast<std::ptrdiff_t>(count));
+  const auto middle = sorted_.begin() + static_cast<std::ptrdiff_t>(sorted_.size() / 2);
+  std::nth_element(sorted_.begin(), middle, sorted_.end());
   constexpr double kSigmaOverMad = 1.4826;
   return kSigmaOverMad * *middle / std::sqrt(6.0);
 }
@@ -375,37 +308,42 @@ double ColumnOffsets::jump_z(int x, double deviation) const {
   return best;
 }
 
-bool ColumnOffsets::measure(ImageView<const std::uint16_t> counts, double sigma, Runner& runner) {
+// What pixel noise gives the offsets, in units of it: that of the means of columns over the rows
+// between whose pixels there is no edge.
+double ColumnOffsets::variance_of_noise() {
+  double inverse_weights = 0;
+  for (int x = 0; x + 1 < columns_; ++x) {
+    inverse_weights += 1 / pair(0, x).weight;
+  }
+  return inverse_weights / (1.0 * rows_ * (columns_ - 1));
+}
+
+bool ColumnOffsets::measure(ImageView<const std::uint16_t> counts,
+                            ImageView<const std::uint16_t> reach, double sigma, Runner& runner) {
   const auto limit =
       static_cast<int>(std::clamp(kEdgeSigmas * sigma, 1.0, 1.0 * detail::kLargestLagDifference));
-  runner.run(parts_, [&](int part) { add_up(counts, part, limit); });
+  runner.run(parts_, [&](int part) { add_up(counts, reach, part, limit); });
   std::fill(offsets_.begin(), offsets_.end(), 0.0);
-  std::fill(is_edge_.begin(), is_edge_.end(), std::uint8_t{0});
-  const double of_noise = 1.0 / rows_;  // variance that pixel noise gives the mean of a column
-  for (int round = 0; round < kRounds; ++round) {
-    if (round > 0) {
-      find_edges(sigma);
-    }
-    find_pairs(sigma);
-    if (round == 0) {
-      solve(kNoPrior, {}, profile_);
-      find_jumps(white_deviation(profile_));
-      find_slopes();
-    }
-    remove_slopes();
-    solve(kNoPrior, {}, profile_);
-    const double deviation = white_deviation(profile_);
-    if (deviation * deviation < kStandOut * of_noise) {
-      return false;
-    }
-    find_jumps(deviation);
-    const double strength = std::max(deviation / kUsualStripes, 1.0);
-    solve(kPrior * strength * strength, jumps_, offsets_);
-    const double trust = 1 - of_noise / (deviation * deviation);
-    for (double& offset : offsets_) {
-      offset *= trust;
-    }
+  find_pairs(sigma);
+  const detail::Line slope = remove_slope();
+  for (int x = 0; x < columns_; ++x) {
+    background_[index(x)] = x * slope.at(0.5 * x);  // its integral
   }
+  solve(kNoPrior, {}, profile_);
+  const double deviation = white_deviation(profile_);
+  const double of_noise = variance_of_noise();
+  if (deviation * deviation < kStandOut * of_noise) {
+    return false;
+  }
+  find_jumps(deviation);
+  const double strength = std::max(deviation / kUsualStripes, 1.0);
+  solve(kPrior * strength * strength, jumps_, offsets_);
+  const double trust = 1 - of_noise / (deviation * deviation);
+  for (double& offset : offsets_) {
+    offset *= trust;
+  }
+  std::transform(offsets_.begin(), offsets_.end(), background_.begin(), background_.begin(),
+                 std::plus<>());
   return true;
 }
 
@@ -415,13 +353,18 @@ struct StripeFinder::Impl {
   void prepare(int width, int height) {
     columns.prepare(width, height);
     rows.prepare(height, width);
+    mask.prepare(width, height);
     copy.resize(width, height);
     transposed.resize(height, width);
+    reach.resize(width, (height + 1) / 2);
+    transposed_reach.resize(height, (width + 1) / 2);
   }
 
   ColumnOffsets columns, rows;
+  detail::StripeMask mask;
   Image<std::uint16_t> copy;  // whose rows may be read past their end
   Image<std::uint16_t> transposed;
+  Image<std::uint16_t> reach, transposed_reach;
 };
 
 StripeFinder::StripeFinder() : impl_(std::make_unique<Impl>()) {}
@@ -448,16 +391,25 @@ void StripeFinder::measure(ImageView<const std::uint16_t> frame, double sigma_co
       impl_->transposed(y, x) = frame(x, y);
     }
   }
-  const auto measure_axis = [&](ColumnOffsets& axis, ImageView<const std::uint16_t> counts,
-                                std::vector<float>& found) {
-    if (axis.measure(counts, sigma_counts, runner)) {
-      for (const double offset : axis.offsets()) {
-        found.push_back(static_cast<float>(offset * sigma_counts));
-      }
-    }
-  };
-  measure_axis(impl_->columns, impl_->copy, offsets.columns);
-  measure_axis(impl_->rows, impl_->transposed, offsets.rows);
+  bool in_columns = false;
+  bool in_rows = false;
+  for (const double gradient : kEdgeGradients) {
+    impl_->mask.find(frame, impl_->columns.background(), impl_->rows.background(), sigma_counts,
+                     gradient, gradient == kEdgeGradients.back());
+    impl_->mask.reach_right(impl_->reach);
+    impl_->mask.reach_down(impl_->transposed_reach);
+    in_columns = impl_->columns.measure(impl_->copy, impl_->reach, sigma_counts, runner);
+    in_rows = impl_->rows.measure(impl_->transposed, impl_->transposed_reach, sigma_counts, runner);
+  }
+  const auto in_counts = [&](double offset) { return static_cast<float>(offset * sigma_counts); };
+  if (in_columns) {
+    std::transform(impl_->columns.offsets().begin(), impl_->columns.offsets().end(),
+                   std::back_inserter(offsets.columns), in_counts);
+  }
+  if (in_rows) {
+    std::transform(impl_->rows.offsets().begin(), impl_->rows.offsets().end(),
+                   std::back_inserter(offsets.rows), in_counts);
+  }
 }
 
 void remove_stripes(const StripeOffsets& offsets, ImageView<std::uint16_t> frame) {

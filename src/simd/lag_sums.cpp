@@ -12,11 +12,12 @@ namespace thermedge::detail {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-void lag_sums(ImageView<const std::uint16_t> counts, int lag, int limit, std::int16_t* sums,
-              std::int16_t* numbers) {
+void lag_sums(ImageView<const std::uint16_t> counts, ImageView<const std::uint16_t> reach, int lag,
+              int limit, std::int16_t* sums, std::int16_t* numbers) {
   const hn::CappedTag<std::uint16_t, 32> d;
   const hn::RebindToSigned<decltype(d)> di;
-  const auto largest = hn::Set(d, static_cast<std::uint16_t>(limit));
+  const auto beyond = hn::Set(d, static_cast<std::uint16_t>(limit + 1));
+  const auto distance = hn::Set(d, static_cast<std::uint16_t>(lag));
   const auto one = hn::Set(di, 1);
   for (int x = 0; x < counts.width() - lag; x += static_cast<int>(hn::Lanes(d))) {
     auto sum = hn::Zero(di);
@@ -24,9 +25,11 @@ void lag_sums(ImageView<const std::uint16_t> counts, int lag, int limit, std::in
     for (int y = 0; y < counts.height(); ++y) {
       const auto a = hn::LoadU(d, counts.row(y) + x);
       const auto b = hn::LoadU(d, counts.row(y) + x + lag);
-      const auto far = hn::RebindMask(di, (hn::Max(a, b) - hn::Min(a, b)) > largest);
-      sum = sum + hn::IfThenZeroElse(far, hn::BitCast(di, b - a));
-      number = number + hn::IfThenZeroElse(far, one);
+      const auto near = (hn::Max(a, b) - hn::Min(a, b)) < beyond;
+      const auto open = hn::LoadU(d, reach.row(y / 2) + x) > distance;
+      const auto counted = hn::RebindMask(di, hn::And(near, open));
+      sum = sum + hn::IfThenElseZero(counted, hn::BitCast(di, b - a));
+      number = number + hn::IfThenElseZero(counted, one);
     }
     hn::StoreU(sum, di, sums + x);
     hn::StoreU(number, di, numbers + x);
@@ -42,9 +45,9 @@ namespace thermedge::detail {
 
 HWY_EXPORT(lag_sums);
 
-void lag_sums(ImageView<const std::uint16_t> counts, int lag, int limit, std::int16_t* sums,
-              std::int16_t* numbers) {
-  HWY_DYNAMIC_DISPATCH(lag_sums)(counts, lag, limit, sums, numbers);
+void lag_sums(ImageView<const std::uint16_t> counts, ImageView<const std::uint16_t> reach, int lag,
+              int limit, std::int16_t* sums, std::int16_t* numbers) {
+  HWY_DYNAMIC_DISPATCH(lag_sums)(counts, reach, lag, limit, sums, numbers);
 }
 
 }  // namespace thermedge::detail

@@ -231,18 +231,20 @@ TEST(Stripes, LagSumsAreThoseOfThePairsWithinTheLimit) {
     for (const int height : {1, 7, 16}) {
       auto counts = test::noise_image<std::uint16_t>(width, height, 300, 40, 5);
       counts(0, 0) = 65535;
+      auto reach = test::noise_image<std::uint16_t>(width, (height + 1) / 2, 10, 5, 6);
       for (const int lag : {1, 3, 12}) {
         test::for_each_simd_target([&](const std::string&) {
           std::vector<std::int16_t> sums(static_cast<std::size_t>(width) + 64);
           std::vector<std::int16_t> numbers(sums.size());
-          detail::lag_sums(counts, lag, 50, sums.data(), numbers.data());
+          detail::lag_sums(counts, reach, lag, 50, sums.data(), numbers.data());
           for (int x = 0; x < width - lag; ++x) {
             int sum = 0;
             int number = 0;
             for (int y = 0; y < height; ++y) {
               const int difference = counts(x + lag, y) - counts(x, y);
-              sum += std::abs(difference) <= 50 ? difference : 0;
-              number += std::abs(difference) <= 50 ? 1 : 0;
+              const bool counted = std::abs(difference) <= 50 && reach(x, y / 2) > lag;
+              sum += counted ? difference : 0;
+              number += counted ? 1 : 0;
             }
             ASSERT_EQ(sums[static_cast<std::size_t>(x)], sum);
             ASSERT_EQ(numbers[static_cast<std::size_t>(x)], number);
