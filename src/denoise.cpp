@@ -10,6 +10,7 @@
 #include "denoise_frame.hpp"
 #include "denoise_gaussian.hpp"
 #include "denoise_nlm.hpp"
+#include "denoise_shading.hpp"
 #include "thermedge/options.hpp"
 
 namespace thermedge {
@@ -84,6 +85,16 @@ struct Denoiser::Impl {
       : options(chosen), options_status(check_denoise_options(chosen)) {}
 
   Status run(ImageView<const float> in, double sigma, ImageView<float> out, Runner& runner) {
+    if (!options.shading) {
+      return run_filters(in, sigma, out, runner);
+    }
+    shading.measure(in);
+    shading.take_off(in, out);
+    return run_filters(out, sigma, out, runner).map([&] { shading.put_back(out); });
+  }
+
+  Status run_filters(ImageView<const float> in, double sigma, ImageView<float> out,
+                     Runner& runner) {
     return run_method(in, sigma * options.strength, out, runner).and_then([&]() -> Status {
       if (options.ripple.range_sigmas > 0) {
         if (Status status = check_sigma(sigma); !status) {
@@ -141,6 +152,7 @@ struct Denoiser::Impl {
       bm3d.prepare(in.width(), in.height());
     }
     ripple.prepare(in.width(), in.height());
+    shading.prepare(in.width(), in.height());
     copy_pixels(in, out);
     return {};
   }
@@ -169,6 +181,7 @@ struct Denoiser::Impl {
   detail::NonLocalMeans nlm{options.nlm};
   detail::Bm3d bm3d{detail::bm3d_settings(options.bm3d)};
   detail::BilateralFilter ripple{options.ripple};
+  detail::Shading shading;
 };
 
 Denoiser::Denoiser(const DenoiseOptions& options) : impl_(std::make_unique<Impl>(options)) {}

@@ -29,6 +29,7 @@ DetectorOptions preset_options(Preset preset) {
     options.edges = EdgeMethod::kOriented;
     options.nuc.stripes = true;
     options.denoise.strength = 1.2;
+    options.denoise.shading = true;
     options.denoise.ripple.range_sigmas = 0.2;
     options.selection.keep_edges = 0;
     options.selection.min_score = 0.75;

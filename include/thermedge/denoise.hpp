@@ -48,6 +48,8 @@ struct DenoiseOptions {
   DenoiseMethod method = DenoiseMethod::kBm3d;
   double sigma_counts = 0;  // noise told to nlm and bm3d, in counts; 0: as measured on the frame
   double strength = 1;      // nlm and bm3d are told so many times the noise
+  bool shading = false;     // the smooth background is taken off before and put back after, so that
+                            // no terraces are made of it
   GaussianOptions gaussian;
   NlmOptions nlm;
   Bm3dOptions bm3d;

@@ -147,6 +147,7 @@ void visit_options(O& o, V&& v) {
   v("method", o.method, kDenoiseMethods, "none, gaussian, nlm or bm3d");
   v("sigma_counts", o.sigma_counts, Bounds{0, 65535}, "noise, counts (0: measured on each frame)");
   v("strength", o.strength, Bounds{0.1, 10}, "nlm and bm3d are told so many times the noise");
+  v("shading", o.shading, Bounds{0, 1}, "take the smooth background off while denoising");
   v.group("gaussian", o.gaussian);
   v.group("nlm", o.nlm);
   v.group("bm3d", o.bm3d);
