@@ -84,23 +84,26 @@ struct Denoiser::Impl {
   explicit Impl(const DenoiseOptions& chosen)
       : options(chosen), options_status(check_denoise_options(chosen)) {}
 
-  Status run(ImageView<const float> in, double sigma, ImageView<float> out, Runner& runner) {
+  // `ripple_share`: of the ripple filter's range.
+  Status run(ImageView<const float> in, double sigma, double ripple_share, ImageView<float> out,
+             Runner& runner) {
     if (!options.shading) {
-      return run_filters(in, sigma, out, runner);
+      return run_filters(in, sigma, ripple_share, out, runner);
     }
     shading.measure(in);
     shading.take_off(in, out);
-    return run_filters(out, sigma, out, runner).map([&] { shading.put_back(out); });
+    return run_filters(out, sigma, ripple_share, out, runner).map([&] { shading.put_back(out); });
   }
 
-  Status run_filters(ImageView<const float> in, double sigma, ImageView<float> out,
-                     Runner& runner) {
+  Status run_filters(ImageView<const float> in, double sigma, double ripple_share,
+                     ImageView<float> out, Runner& runner) {
     return run_method(in, sigma * options.strength, out, runner).and_then([&]() -> Status {
-      if (options.ripple.range_sigmas > 0) {
+      const double range = ripple_share * options.ripple.range_sigmas;
+      if (range > 0) {
         if (Status status = check_sigma(sigma); !status) {
           return status;
         }
-        ripple.run(out, sigma, out, runner);
+        ripple.run(out, range * sigma, out, runner);
       }
       return {};
     });
@@ -191,18 +194,18 @@ Denoiser::~Denoiser() = default;
 
 Status Denoiser::run(ImageView<const float> in, double sigma, ImageView<float> out,
                      Runner& runner) {
-  return impl_->guarded(in, out, [&] { return impl_->run(in, sigma, out, runner); });
+  return impl_->guarded(in, out, [&] { return impl_->run(in, sigma, 1, out, runner); });
 }
 
 Status Denoiser::run_measured(ImageView<const float> in, double sigma, ImageView<float> out,
-                              Runner& runner) {
+                              Runner& runner, double ripple) {
   const DenoiseMethod method = impl_->options.method;
   const bool needs_noise = method == DenoiseMethod::kNlm || method == DenoiseMethod::kBm3d ||
                            impl_->options.ripple.range_sigmas > 0;
   if (sigma == 0 && needs_noise) {
     return impl_->guarded(in, out, [&] { return impl_->copy_clean(in, out); });
   }
-  return run(in, sigma, out, runner);
+  return impl_->guarded(in, out, [&] { return impl_->run(in, sigma, ripple, out, runner); });
 }
 
 }  // namespace thermedge

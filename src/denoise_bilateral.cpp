@@ -32,13 +32,13 @@ void BilateralFilter::prepare(int width, int height) {
   result_.resize(width + kBilateralSlack, height);
 }
 
-void BilateralFilter::run(ImageView<const float> in, double sigma, ImageView<float> out,
+void BilateralFilter::run(ImageView<const float> in, double range, ImageView<float> out,
                           Runner& runner) {
   prepare(in.width(), in.height());
   const int reach = radius();
   const int width = in.width();
   const int height = in.height();
-  const auto cut = static_cast<float>(kCut * options_.range_sigmas * sigma);
+  const auto cut = static_cast<float>(kCut * range);
   const auto for_each_row = [&](int count, auto&& task) {
     runner.run((count + kRowsPerTask - 1) / kRowsPerTask, [&](int part) {
       for (int y = part * kRowsPerTask; y < std::min((part + 1) * kRowsPerTask, count); ++y) {

@@ -17,8 +17,8 @@ class BilateralFilter {
   // For frames of this size; run does it otherwise.
   void prepare(int width, int height);
 
-  // `in` may be `out`. `sigma` > 0.
-  void run(ImageView<const float> in, double sigma, ImageView<float> out, Runner& runner);
+  // `in` may be `out`. `range` > 0: of the differences that are evened out, in the units of `in`.
+  void run(ImageView<const float> in, double range, ImageView<float> out, Runner& runner);
 
  private:
   [[nodiscard]] int radius() const;

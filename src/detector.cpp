@@ -16,7 +16,12 @@ namespace thermedge {
 namespace {
 
 // What the removal of stripes leaves of them, in units of the noise (docs/tuning.md).
-constexpr double kStripesLeft = 0.12;
+constexpr double kStripesLeft = 0.08;
+// Noise below this share of the frame's range is none.
+constexpr double kNoNoise = 0.002;
+// Noise of such shares of the range is next to no burden, and a full one.
+constexpr double kCleanNoise = 0.03;
+constexpr double kFullNoise = 0.05;
 
 using Clock = std::chrono::steady_clock;
 
@@ -69,8 +74,8 @@ struct Detector::Impl {
   Status trace(ImageView<const std::uint8_t> edge_map);
 
   Status detect_oriented(int bits);
-  double least_noise();
-  Status denoise_counts(int bits);
+  double range_of_counts();
+  Status denoise_counts(int bits, double noisiness);
   void show_denoised();
 
   void begin(int width, int height);
@@ -129,19 +134,22 @@ Status Detector::Impl::detect(ImageView<const std::uint16_t> frame, int bits) {
 Status Detector::Impl::detect_oriented(int bits) {
   const double sigma =
       options.denoise.sigma_counts > 0 ? options.denoise.sigma_counts : result.noise.sigma_counts;
-  const double floor = least_noise();
-  result.sigma_counts = sigma > floor / 2 ? sigma : 0;  // below, the frame is clean
-  const double unit = std::max(sigma, floor);
+  const double range = range_of_counts();
+  result.sigma_counts = sigma > kNoNoise * range ? sigma : 0;
+  const double unit = std::hypot(sigma, options.oriented.noise_floor * range);
+  const double noisiness =
+      std::clamp((sigma / range - kCleanNoise) / (kFullNoise - kCleanNoise), 0.0, 1.0);
   return scale(bits)
-      .and_then([&] { return denoise_counts(bits); })
+      .and_then([&] { return denoise_counts(bits, noisiness); })
       .and_then([&] {
         const Stopwatch watch(result.ms.canny);
-        return oriented.run(working, unit, *runner).map([&](const OrientedResult& edges) {
-          oriented_found = edges;
-          result.edge_map = edges.edges;
-          result.canny_low = options.oriented.low;
-          result.canny_high = options.oriented.high;
-        });
+        return oriented.run(working, unit, noisiness, *runner)
+            .map([&](const OrientedResult& edges) {
+              oriented_found = edges;
+              result.edge_map = edges.edges;
+              result.canny_low = options.oriented.low;
+              result.canny_high = options.oriented.high;
+            });
       })
       .and_then([&] {
         const Stopwatch watch(result.ms.contours);
@@ -158,17 +166,18 @@ Status Detector::Impl::detect_oriented(int bits) {
       .and_then([&] {
         const Stopwatch watch(result.ms.measure);
         const bool striped = !result.stripes->columns.empty() || !result.stripes->rows.empty();
-        measure_edges(result.corrected, unit, oriented_found.direction,
+        measure_edges(result.corrected, std::max(sigma, kNoNoise * range), oriented_found.direction,
                       {striped ? kStripesLeft : 0}, result.edges);
-        refine_positions(oriented_found.strength, options.oriented.along_px, result.edges);
+        refine_positions(oriented_found.strength, oriented_found.kernel, sigma / unit,
+                         result.edges);
         return selector.run(result.edges).map([&] {
           selector.keep_junctions(result.width, result.height, result.edges);
         });
       });
 }
 
-// The least noise assumed: a share of the range of the counts, of which every 16th pixel tells.
-double Detector::Impl::least_noise() {
+// From the 0.1st to the 99.9th percentile; every 16th pixel tells.
+double Detector::Impl::range_of_counts() {
   constexpr int kStep = 4;
   constexpr double kTail = 0.001;
   sample.clear();
@@ -183,15 +192,17 @@ double Detector::Impl::least_noise() {
     std::nth_element(sample.begin(), at, sample.end());
     return static_cast<double>(*at);
   };
-  constexpr double kLeast = 1e-3;  // of a frame without any contrast, counts
-  return std::max(options.oriented.noise_floor * (quantile(1 - kTail) - quantile(kTail)), kLeast);
+  constexpr double kLeast = 1;  // of a frame without any contrast
+  return std::max(quantile(1 - kTail) - quantile(kTail), kLeast);
 }
 
-Status Detector::Impl::denoise_counts(int bits) {
+Status Detector::Impl::denoise_counts(int bits, double noisiness) {
   const Stopwatch watch(result.ms.denoise);
   working.resize(result.width, result.height);
   copy_pixels(result.corrected, working.view());
-  if (Status status = denoiser.run_measured(working, result.sigma_counts, working, *runner);
+  // The ripple that BM3D leaves is a matter of strong noise, and taking it off steepens slopes.
+  if (Status status =
+          denoiser.run_measured(working, result.sigma_counts, working, *runner, noisiness);
       !status) {
     return status;
   }

@@ -112,11 +112,14 @@ struct Contrast {
   int samples = 0;
 };
 
-Contrast contrast_across(ImageView<const std::uint16_t> frame, const Edgels& edgels, Range range) {
+constexpr double kNearestPx = 1.5;
+
+Contrast contrast_across(ImageView<const std::uint16_t> frame, const Edgels& edgels, Range range,
+                         double farthest_px) {
   double sum = 0;
   int samples = 0;
   for (std::size_t i = range.first; i < range.first + range.count; ++i) {
-    for (const double distance : {1.5, 2.5, 3.5}) {
+    for (double distance = kNearestPx; distance <= farthest_px; distance += 1) {
       if (const auto step = difference(frame, edgels, i, distance)) {
         sum += *step;
         ++samples;
@@ -163,9 +166,9 @@ double z_of(const Contrast& contrast, double sigma_counts, double more_variance)
 }
 
 // What the slope of the scene around an edge contributes to its contrast, counts.
-double contrast_of_slope(ImageView<const std::uint16_t> frame, const Edgels& edgels, Range range) {
+double contrast_of_slope(ImageView<const std::uint16_t> frame, const Edgels& edgels, Range range,
+                         double farthest_px) {
   constexpr double kFarPx = 16;
-  constexpr double kMeanPx = 2.5;  // of the distances at which contrast is measured
   double sum = 0;
   int samples = 0;
   for (std::size_t i = range.first; i < range.first + range.count; ++i) {
@@ -174,7 +177,8 @@ double contrast_of_slope(ImageView<const std::uint16_t> frame, const Edgels& edg
       ++samples;
     }
   }
-  return samples > 0 ? sum / samples * kMeanPx / kFarPx : 0;
+  const double mean_px = (kNearestPx + farthest_px) / 2;
+  return samples > 0 ? sum / samples * mean_px / kFarPx : 0;
 }
 
 // How much of an edge runs along one column or row: 1 for a straight one along an axis, 1 / sqrt(2)
@@ -222,16 +226,16 @@ double number_of_tests(const EdgeSet& edges) {
 
 namespace {
 
-// significance(contrast, edge) is the z of an edge.
-// orient(edge) may turn normals round before.
+// The contrast is that from kNearestPx to `farthest_px` on both sides. significance(contrast, edge)
+// is the z of an edge; orient(edge) may turn normals round before.
 template <class Orient, class Significance>
 void measure_all(ImageView<const std::uint16_t> frame, double sigma_counts, double tests,
-                 EdgeSet& edges, Orient&& orient, Significance&& significance) {
+                 double farthest_px, EdgeSet& edges, Orient&& orient, Significance&& significance) {
   const double log10_tests = std::log10(tests);
   for (Edge& edge : edges.edges) {
     set_normals(edges.edgels, edge);
     orient(edge);
-    Contrast contrast = contrast_across(frame, edges.edgels, edge.edgels);
+    Contrast contrast = contrast_across(frame, edges.edgels, edge.edgels, farthest_px);
     if (contrast.counts < 0) {
       flip_normals(edges.edgels, edge.edgels);
       contrast.counts = -contrast.counts;
@@ -246,8 +250,9 @@ void measure_all(ImageView<const std::uint16_t> frame, double sigma_counts, doub
 }  // namespace
 
 void measure_edges(ImageView<const std::uint16_t> frame, double sigma_counts, EdgeSet& edges) {
+  constexpr double kFarthestPx = 3.5;
   measure_all(
-      frame, sigma_counts, number_of_tests(edges), edges, [](const Edge&) {},
+      frame, sigma_counts, number_of_tests(edges), kFarthestPx, edges, [](const Edge&) {},
       [&](const Contrast& contrast, const Edge&) { return z_of(contrast, sigma_counts, 0); });
 }
 
@@ -255,6 +260,7 @@ void measure_edges(ImageView<const std::uint16_t> frame, double sigma_counts,
                    ImageView<const std::int32_t> direction, const SignificanceOptions& options,
                    EdgeSet& edges) {
   constexpr double kPixelsPerTest = 64;
+  constexpr double kFarthestPx = 5.5;
   const double tests = std::max(static_cast<double>(frame.size()) / kPixelsPerTest, 1.0);
   Edgels& edgels = edges.edgels;
   const auto orient = [&](const Edge& edge) {
@@ -267,12 +273,13 @@ void measure_edges(ImageView<const std::uint16_t> frame, double sigma_counts,
       }
     }
   };
-  measure_all(frame, sigma_counts, tests, edges, orient, [&](Contrast contrast, const Edge& edge) {
-    const double slope = contrast_of_slope(frame, edgels, edge.edgels);
+  const auto significance = [&](Contrast contrast, const Edge& edge) {
+    const double slope = contrast_of_slope(frame, edgels, edge.edgels, kFarthestPx);
     contrast.counts = std::clamp(contrast.counts - slope, 0.0, contrast.counts);
     const double stripes = options.stripe_sigmas * alignment(edgels, edge.edgels);
     return z_of(contrast, sigma_counts, stripes * stripes);
-  });
+  };
+  measure_all(frame, sigma_counts, tests, kFarthestPx, edges, orient, significance);
 }
 
 void set_normals_from_shape(EdgeSet& edges) {

@@ -32,7 +32,7 @@ DetectorOptions preset_options(Preset preset) {
     options.denoise.shading = true;
     options.denoise.ripple.range_sigmas = 0.2;
     options.selection.keep_edges = 0;
-    options.selection.min_score = 0.75;
+    options.selection.min_score = 0.5;
     options.selection.max_false_alarms = 0.1;
   }
   return options;

@@ -18,8 +18,10 @@
 namespace thermedge {
 namespace {
 
-constexpr int kDirections = 12;  // of edges; 24 with the side that is warmer
-constexpr int kSidePx = 4;       // where an edge has to be over
+constexpr int kDirections = 12;          // of edges; 24 with the side that is warmer
+constexpr std::array kSidesPx = {4, 8};  // where an edge has to be over; the second in noise only
+constexpr double kNoisy = 0.5;
+constexpr int kKernelSteps = 8;  // between the clean kernels and those for noise
 constexpr int kBandRows = 32;
 constexpr int kMaxLineRadius = 10;
 constexpr std::size_t kFineGroupPx = 8;  // smaller groups of the fine derivative are left out
@@ -85,7 +87,7 @@ struct Across {
   int first_x, first_y;
   int second_x, second_y;
   float share;
-  int side_x, side_y;  // kSidePx away
+  std::array<int, kSidesPx.size()> side_x, side_y;
 };
 Across across(int direction) {
   direction %= kDirections;
@@ -94,22 +96,19 @@ Across across(int direction) {
   const double y = tangent.x;
   const int step_x = x < 0 ? -1 : 1;
   const int step_y = y < 0 ? -1 : 1;
+  Across out{0, 0, step_x, step_y, 0, {}, {}};
   if (std::abs(x) >= std::abs(y)) {
-    return {step_x,
-            0,
-            step_x,
-            step_y,
-            static_cast<float>(std::abs(y) / std::abs(x)),
-            nearest_pixel(kSidePx * x),
-            nearest_pixel(kSidePx * y)};
+    out.first_x = step_x;
+    out.share = static_cast<float>(std::abs(y) / std::abs(x));
+  } else {
+    out.first_y = step_y;
+    out.share = static_cast<float>(std::abs(x) / std::abs(y));
   }
-  return {0,
-          step_y,
-          step_x,
-          step_y,
-          static_cast<float>(std::abs(x) / std::abs(y)),
-          nearest_pixel(kSidePx * x),
-          nearest_pixel(kSidePx * y)};
+  for (std::size_t i = 0; i < kSidesPx.size(); ++i) {
+    out.side_x[i] = nearest_pixel(kSidesPx[i] * x);
+    out.side_y[i] = nearest_pixel(kSidesPx[i] * y);
+  }
+  return out;
 }
 
 // What adds derivatives up along the edges of one direction.
@@ -125,9 +124,8 @@ struct LineWeights {
   std::array<float, kMaxLineRadius + 1> weights;
 };
 
-LineWeights line_weights(const OrientedOptions& options) {
-  const double variance =
-      options.along_px * options.along_px - options.across_px * options.across_px;
+LineWeights line_weights(double across_px, double along_px) {
+  const double variance = along_px * along_px - across_px * across_px;
   LineWeights line{
       std::min(static_cast<int>(std::ceil(2.25 * std::sqrt(variance))), kMaxLineRadius), {}};
   for (int k = 0; k <= line.radius; ++k) {
@@ -167,6 +165,36 @@ Line make_line(int direction, const LineWeights& weights, const Derivative& deri
   return line;
 }
 
+// Derivatives of a Gaussian that is longer than it is wide, at all orientations.
+struct Kernels {
+  Kernels(double across_px, double along_px)
+      : derivative(std::clamp(across_px, 0.5, 2.0)),
+        weights(line_weights(across_px, along_px)),
+        size{across_px, along_px} {
+    for (int i = 0; i < kDirections; ++i) {
+      lines[static_cast<std::size_t>(i)] = make_line(i, weights, derivative);
+    }
+  }
+
+  Derivative derivative;
+  LineWeights weights;
+  std::array<Line, kDirections> lines{};
+  KernelSize size;
+};
+
+std::vector<Kernels> make_kernels(const OrientedOptions& options) {
+  std::vector<Kernels> kernels;
+  for (int i = 0; i <= kKernelSteps; ++i) {
+    const double share = 1.0 * i / kKernelSteps;
+    const auto between = [&](double clean, double noisy) {
+      return clean + share * (noisy - clean);
+    };
+    kernels.emplace_back(between(options.clean_across_px, options.across_px),
+                         between(options.clean_along_px, options.along_px));
+  }
+  return kernels;
+}
+
 // What noise of 1 makes of a derivative.
 double noise_gain(const Derivative& derivative) {
   double power = 0;
@@ -178,15 +206,23 @@ double noise_gain(const Derivative& derivative) {
   return std::sqrt(power);
 }
 
-Status check(ImageView<const float> in, double sigma_counts, const OrientedOptions& options) {
+Status check(ImageView<const float> in, double sigma_counts, double noisiness,
+             const OrientedOptions& options) {
   if (in.empty()) {
     return failure(ErrorCode::kInvalidArgument, "frame: it has no pixels");
   }
   if (!(sigma_counts > 0) || !std::isfinite(sigma_counts)) {
     return failure(ErrorCode::kInvalidArgument, "noise: it must be above 0 and finite");
   }
+  if (!(noisiness >= 0 && noisiness <= 1)) {
+    return failure(ErrorCode::kInvalidArgument, "noisiness: it must be 0 to 1");
+  }
   if (options.along_px < options.across_px) {
     return failure(ErrorCode::kInvalidArgument, "oriented.along_px is less than across_px");
+  }
+  if (options.clean_along_px < options.clean_across_px) {
+    return failure(ErrorCode::kInvalidArgument,
+                   "oriented.clean_along_px is less than clean_across_px");
   }
   if (options.high < options.low) {
     return failure(ErrorCode::kInvalidArgument, "oriented.high is less than low");
@@ -200,12 +236,13 @@ Status check(ImageView<const float> in, double sigma_counts, const OrientedOptio
 struct OrientedEdges::Impl {
   explicit Impl(const OrientedOptions& chosen)
       : options(chosen),
-        derivative(std::clamp(chosen.across_px, 0.5, 2.0)),
         fine(std::clamp(chosen.fine_px, 0.5, 2.0)),
         fine_noise_gain(noise_gain(fine)),
-        line_weight(line_weights(chosen)) {
-    for (int i = 0; i < kDirections; ++i) {
-      lines[static_cast<std::size_t>(i)] = make_line(i, line_weight, derivative);
+        all_kernels(make_kernels(chosen)),
+        kernels(&all_kernels.back()) {
+    for (const Kernels& each : all_kernels) {
+      largest_radius = std::max(largest_radius, each.derivative.radius);
+      line_margin = std::max(line_margin, each.weights.radius);
     }
     for (int i = 0; i < 2 * kDirections; ++i) {
       steps[static_cast<std::size_t>(i)] = across(i);
@@ -224,11 +261,13 @@ struct OrientedEdges::Impl {
   void classify(int x, int y);
 
   OrientedOptions options;
-  Derivative derivative;
   Derivative fine;
   double fine_noise_gain;
-  LineWeights line_weight;
-  std::array<Line, kDirections> lines{};
+  std::vector<Kernels> all_kernels;  // from clean to noisy
+  int largest_radius = 0;            // of their derivatives
+  int line_margin = 0;               // of their lines
+  const Kernels* kernels;            // of this frame
+  std::size_t sides = 1;             // of kSidesPx, for this frame
   std::array<Across, 2 * kDirections> steps{};
 
   int width = 0, height = 0, bands = 0;
@@ -243,9 +282,7 @@ struct OrientedEdges::Impl {
   Image<std::uint8_t> fine_classes, edges;
   std::vector<std::ptrdiff_t> group;
 
-  [[nodiscard]] int padding() const {
-    return std::max(derivative.radius + line_weight.radius, fine.radius);
-  }
+  [[nodiscard]] int padding() const { return std::max(largest_radius + line_margin, fine.radius); }
 };
 
 void OrientedEdges::Impl::prepare(int frame_width, int frame_height) {
@@ -253,7 +290,7 @@ void OrientedEdges::Impl::prepare(int frame_width, int frame_height) {
   height = frame_height;
   bands = (height + kBandRows - 1) / kBandRows;
   const int slack = detail::kOrientedSlack;
-  const int line = line_weight.radius;
+  const int line = line_margin;
   padded.resize(width + 2 * padding() + slack, height + 2 * padding());
   gx.resize(width + 2 * line + slack, height + 2 * line);
   gy.resize(gx.width(), gx.height());
@@ -323,7 +360,7 @@ void OrientedEdges::Impl::find_fine(Runner& runner, double sigma_counts) {
 }
 
 void OrientedEdges::Impl::project(int band, int y_begin, int y_end, double sigma_counts) {
-  const int margin = line_weight.radius;
+  const int margin = line_margin;
   const int first_row = band * (kBandRows + 2 * margin);  // of this band in `projected`
   const auto per_sigma = static_cast<float>(1 / sigma_counts);
   for (int y = y_begin; y < y_end; ++y) {
@@ -331,7 +368,7 @@ void OrientedEdges::Impl::project(int band, int y_begin, int y_end, double sigma
     std::fill_n(direction.row(y), direction.width(), 0);
   }
   for (int i = 0; i < kDirections; ++i) {
-    const Line& line = lines[static_cast<std::size_t>(i)];
+    const Line& line = kernels->lines[static_cast<std::size_t>(i)];
     const int reach = *std::max_element(line.dy.begin(), line.dy.begin() + margin + 1);
     for (int y = y_begin - reach; y < y_end + reach; ++y) {
       detail::project_row(gx.row(y + margin), gy.row(y + margin), line.gx_gain * per_sigma,
@@ -344,8 +381,9 @@ void OrientedEdges::Impl::project(int band, int y_begin, int y_end, double sigma
     }
     for (int y = y_begin; y < y_end; ++y) {
       detail::keep_stronger_row(projected.row(first_row + y - y_begin + margin) + margin,
-                                offsets.data(), line_weight.weights.data(), margin, i, kDirections,
-                                width, strength.row(y), direction.row(y));
+                                offsets.data(), kernels->weights.weights.data(),
+                                kernels->weights.radius, i, kDirections, width, strength.row(y),
+                                direction.row(y));
     }
   }
 }
@@ -353,9 +391,9 @@ void OrientedEdges::Impl::project(int band, int y_begin, int y_end, double sigma
 // By how much the strength of a pixel is over that of both sides; a slope is as strong all over.
 float OrientedEdges::Impl::prominence_at(int x, int y) const {
   const Across& step = steps[static_cast<std::size_t>(direction(x, y))];
-  const auto side = [&](int sign) {
-    int side_x = x + sign * step.side_x;
-    int side_y = y + sign * step.side_y;
+  const auto side = [&](std::size_t i, int sign) {
+    int side_x = x + sign * step.side_x[i];
+    int side_y = y + sign * step.side_y[i];
     if (!edges.view().contains(side_x, side_y)) {
       side_x = detail::mirrored(side_x, width);
       side_y = detail::mirrored(side_y, height);
@@ -363,7 +401,11 @@ float OrientedEdges::Impl::prominence_at(int x, int y) const {
     const int turn = std::abs(direction(side_x, side_y) - direction(x, y));
     return turn <= 3 || turn >= 2 * kDirections - 3 ? strength(side_x, side_y) : 0.0F;
   };
-  return strength(x, y) - 0.5F * (side(1) + side(-1));
+  float least = side(0, 1) + side(0, -1);
+  for (std::size_t i = 1; i < sides; ++i) {
+    least = std::min(least, side(i, 1) + side(i, -1));
+  }
+  return strength(x, y) - 0.5F * least;
 }
 
 // Sets the prominence and the class, before hysteresis, of a pixel on a ridge.
@@ -433,11 +475,13 @@ OrientedEdges& OrientedEdges::operator=(OrientedEdges&&) noexcept = default;
 OrientedEdges::~OrientedEdges() = default;
 
 Result<OrientedResult> OrientedEdges::run(ImageView<const float> in, double sigma_counts,
-                                          Runner& runner) {
+                                          double noisiness, Runner& runner) {
   Impl& self = *impl_;
-  if (Status status = check(in, sigma_counts, self.options); !status) {
+  if (Status status = check(in, sigma_counts, noisiness, self.options); !status) {
     return tl::unexpected(status.error());
   }
+  self.kernels = &self.all_kernels[static_cast<std::size_t>(std::lround(noisiness * kKernelSteps))];
+  self.sides = noisiness >= kNoisy ? kSidesPx.size() : 1;
   self.prepare(in.width(), in.height());
   const int padding = self.padding();
   for (int y = 0; y < self.padded.height(); ++y) {
@@ -446,9 +490,9 @@ Result<OrientedResult> OrientedEdges::run(ImageView<const float> in, double sigm
   if (self.options.fine_px > 0) {
     self.find_fine(runner, sigma_counts);
   }
-  const int margin = self.line_weight.radius;
+  const int margin = self.line_margin;
   self.for_each_band(runner, [&](int band, int y_begin, int y_end) {
-    self.differentiate(self.derivative, margin, y_begin == 0 ? -margin : y_begin,
+    self.differentiate(self.kernels->derivative, margin, y_begin == 0 ? -margin : y_begin,
                        y_end == self.height ? y_end + margin : y_end, self.scratch.row(2 * band));
   });
   self.for_each_band(runner, [&](int band, int y_begin, int y_end) {
@@ -461,7 +505,7 @@ Result<OrientedResult> OrientedEdges::run(ImageView<const float> in, double sigm
   detail::apply_hysteresis(self.edges.view(), 1, self.group);
   return OrientedResult{self.strength.view().crop(0, 0, self.width, self.height),
                         self.direction.view().crop(0, 0, self.width, self.height), self.prominence,
-                        self.edges};
+                        self.edges, self.kernels->size};
 }
 
 }  // namespace thermedge

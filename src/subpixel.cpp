@@ -33,7 +33,8 @@ Facet facet_of_log(ImageView<const float> values, int x, int y) {
 constexpr double kHalfPixel = 0.499;
 
 // To the ridge, within the pixel.
-void move_to_ridge(ImageView<const float> strength, Edgels& edgels, std::size_t i) {
+void move_to_ridge(ImageView<const float> strength, double sigma_times_strength, Edgels& edgels,
+                   std::size_t i) {
   const int x = static_cast<int>(std::floor(edgels.x[i] + 0.5F));
   const int y = static_cast<int>(std::floor(edgels.y[i] + 0.5F));
   if (x < 1 || y < 1 || x >= strength.width() - 1 || y >= strength.height() - 1) {
@@ -50,10 +51,9 @@ void move_to_ridge(ImageView<const float> strength, Edgels& edgels, std::size_t 
     edgels.x[i] = static_cast<float>(x + shift * nx);
     edgels.y[i] = static_cast<float>(y + shift * ny);
   }
-  constexpr double kSigmaTimesStrength = 1.25;
   constexpr double kLeastSigma = 0.01;
   edgels.position_sigma_px[i] = static_cast<float>(std::max(
-      kSigmaTimesStrength / std::max(static_cast<double>(strength(x, y)), 1e-6), kLeastSigma));
+      sigma_times_strength / std::max(static_cast<double>(strength(x, y)), 1e-6), kLeastSigma));
 }
 
 constexpr std::size_t kReach = 8;  // edgels to either side that tell the curvature
@@ -131,12 +131,17 @@ void make_up_for_curvature(double along_px, const Edge& edge, Edgels& edgels) {
 
 }  // namespace
 
-void refine_positions(ImageView<const float> strength, double along_px, EdgeSet& edges) {
+void refine_positions(ImageView<const float> strength, KernelSize kernel, double noise,
+                      EdgeSet& edges) {
+  constexpr double kSigmaTimesStrength = 1.25;  // of kernels of this area
+  constexpr double kArea = 1.2 * 2.5;
+  const double sigma_times_strength =
+      kSigmaTimesStrength * noise * std::sqrt(kernel.across_px * kernel.along_px / kArea);
   for (std::size_t i = 0; i < edges.edgels.size(); ++i) {
-    move_to_ridge(strength, edges.edgels, i);
+    move_to_ridge(strength, sigma_times_strength, edges.edgels, i);
   }
   for (const Edge& edge : edges.edges) {
-    make_up_for_curvature(along_px, edge, edges.edgels);
+    make_up_for_curvature(kernel.along_px, edge, edges.edgels);
   }
 }
 

@@ -78,9 +78,10 @@ class Denoiser {
                            Runner& runner);
 
   // The same for the `sigma` that NoiseEstimator measured: where it found none, which it says with
-  // 0, there is nothing to remove and the frame is copied.
+  // 0, there is nothing to remove and the frame is copied. `ripple`, 0 to 1, is the share of
+  // options.ripple.range_sigmas that this frame needs.
   [[nodiscard]] Status run_measured(ImageView<const float> in, double sigma, ImageView<float> out,
-                                    Runner& runner);
+                                    Runner& runner, double ripple = 1);
 
  private:
   struct Impl;

@@ -30,11 +30,12 @@ struct SignificanceOptions {
   double stripe_sigmas = 0;
 };
 
-// The same with a stricter z and NFA, for edges that must prove themselves. A slope of the scene is
-// no edge: the contrast is reduced by what the slope between the counts 16 px to both sides makes
-// of it, to nothing at most. z = contrast / (sigma sqrt(2 / samples + (stripe_sigmas a)^2)), where
-// a is the mean of max(nx^16, ny^16), 1 along an axis. Tests: a sixty-fourth of the frame's pixels,
-// which is how many apertures of 8 x 8 px it holds.
+// The same for edges that must prove themselves. Contrast: as above, up to 5.5 px to both sides, so
+// that faint edges show. z and NFA are stricter. A slope of the scene is no edge: the contrast is
+// reduced by what the slope between the counts 16 px to both sides makes of it, to nothing at most.
+// z = contrast / (sigma sqrt(2 / samples + (stripe_sigmas a)^2)), where a is the mean of max(nx^16,
+// ny^16), 1 along an axis. Tests: a sixty-fourth of the frame's pixels, which is how many apertures
+// of 8 x 8 px it holds.
 void measure_edges(ImageView<const std::uint16_t> frame, double sigma_counts,
                    ImageView<const std::int32_t> direction, const SignificanceOptions& options,
                    EdgeSet& edges);

@@ -166,6 +166,9 @@ void visit_options(O& o, V&& v) {
 template <OptionsOf<OrientedOptions> O, class V>
 void visit_options(O& o, V&& v) {
   v("across_px", o.across_px, Bounds{0.5, 2}, "width of the kernels across the edge, sigma, px");
+  v("clean_across_px", o.clean_across_px, Bounds{0.5, 2},
+    "the same where there is next to no noise, px");
+  v("clean_along_px", o.clean_along_px, Bounds{0.5, 4}, "and along it, px");
   v("along_px", o.along_px, Bounds{0.5, 4}, "their length along it, sigma, px");
   v("low", o.low, Bounds{1e-6, 1000}, "hysteresis, in units of the noise: edges go on above this");
   v("high", o.high, Bounds{1e-6, 1000}, "... and hold a pixel above this");

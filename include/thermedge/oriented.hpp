@@ -11,13 +11,21 @@
 namespace thermedge {
 
 struct OrientedOptions {
-  double across_px = 1.2;      // standard deviation of the kernels across the edge, 0.5..2
-  double along_px = 2.5;       // and along it, from across_px to 4
+  double across_px = 1.2;        // standard deviation of the kernels across the edge, 0.5..2,
+  double along_px = 2.5;         // and along it, from across_px to 4, in strong noise;
+  double clean_across_px = 0.8;  // and the same in next to none
+  double clean_along_px = 1.0;
   double low = 0.3;            // hysteresis, in units of the noise before denoising, > 0
   double high = 0.45;          // from `low` up
-  double noise_floor = 0.004;  // least noise assumed, of the frame's range (p99.9 - p0.1), 0..0.1
+  double noise_floor = 0.008;  // least noise assumed, of the frame's range (p99.9 - p0.1), 0..0.1
   double fine_px = 0.8;        // standard deviation of the fine derivative, 0.5..2; 0: none
   double fine_above = 0.3;     // the response of the fine one from which it decides, > 0
+};
+
+// Standard deviations.
+struct KernelSize {
+  double across_px;
+  double along_px;
 };
 
 // Of one frame; the views live in the object that made them, until its next run.
@@ -29,6 +37,7 @@ struct OrientedResult {
   ImageView<const float> prominence;        // of edge pixels: strength over that of what lies
                                             // 4 px to both sides; slopes have next to none
   ImageView<const std::uint8_t> edges;      // 255 edge, 0 none
+  KernelSize kernel;                        // that found them
 };
 
 // Derivatives of a Gaussian that is longer than it is wide, at 12 orientations (what runs along an
@@ -48,11 +57,13 @@ class OrientedEdges {
   OrientedEdges& operator=(OrientedEdges&&) noexcept;
   ~OrientedEdges();
 
-  // `in`: counts, denoised or not; `sigma_counts` > 0: the noise before denoising.
-  // Errors: empty frame; sigma not positive or not finite; an option out of range; a pixel that is
-  // NaN, infinite or beyond 1e18.
+  // `in`: counts, denoised or not; `sigma_counts` > 0: the noise before denoising; `noisiness`: how
+  // much of a burden it is, 0 (the short clean kernels) to 1 (the long ones). From a half up, the
+  // sides that an edge has to be over may lie 8 px away too: denoisers blur faint edges.
+  // Errors: empty frame; sigma not positive or not finite; noisiness out of range; an option out of
+  // range; a pixel that is NaN, infinite or beyond 1e18.
   [[nodiscard]] Result<OrientedResult> run(ImageView<const float> in, double sigma_counts,
-                                           Runner& runner);
+                                           double noisiness, Runner& runner);
 
  private:
   struct Impl;

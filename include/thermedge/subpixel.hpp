@@ -3,6 +3,7 @@
 
 #include "thermedge/edges.hpp"
 #include "thermedge/image.hpp"
+#include "thermedge/oriented.hpp"
 
 namespace thermedge {
 
@@ -11,14 +12,16 @@ namespace thermedge {
 // logarithm of the 3 x 3 pixels around best (Steger 1998; across a blurred step the response of a
 // Gaussian derivative is a Gaussian, whose logarithm is a parabola, so the fit is exact). No edgel
 // leaves its pixel; where there is no maximum, it stays. Normals must be set (measure.hpp).
-// A kernel that is long (standard deviation `along_px`) sees a curved edge from inside, by half its
+// A kernel that is long (`kernel`) sees a curved edge from inside, by half its
 // variance over the radius; this is made up for, the curvature being that of the circle through
 // the edgel and those 8 before and behind it. Near the ends of open edges it is left as it is.
-// Sets position_sigma_px to 1.25 / strength, strength being in units of the noise: half of what the
-// noise before denoising would leave (the standard deviation of the response's slope over its
-// curvature, 2.5 / strength for kernels of 1.2 px across on optics of 1 px), as measured behind
-// BM3D; at least 0.01 px.
+// Sets position_sigma_px to 1.25 noise / strength for kernels of 1.2 x 2.5 px (`noise` of the frame
+// in the units of strength): half of what the noise before denoising would leave (the standard
+// deviation of the response's slope over its curvature, 2.5 / strength on optics of 1 px), as
+// measured behind BM3D. Smaller kernels see less of a step, by the root of their area, and are no
+// worse off for that. At least 0.01 px.
 // Thread-safe. Cost: 0.05 us per edgel.
-void refine_positions(ImageView<const float> strength, double along_px, EdgeSet& edges);
+void refine_positions(ImageView<const float> strength, KernelSize kernel, double noise,
+                      EdgeSet& edges);
 
 }  // namespace thermedge

@@ -23,7 +23,7 @@ Found find(ImageView<const float> frame, double sigma, const OrientedOptions& op
            int threads = 1) {
   const auto runner = make_runner(threads);
   OrientedEdges detector(options);
-  const auto result = detector.run(frame, sigma, *runner);
+  const auto result = detector.run(frame, sigma, 1, *runner);
   EXPECT_TRUE(result) << result.error().message;
   Found found;
   const auto take = [&](auto view, auto& image) {
@@ -175,7 +175,7 @@ TEST(OrientedEdges, RefuseWhatTheyCannotDo) {
   const auto message = [&](ImageView<const float> in, double sigma,
                            const OrientedOptions& options) {
     OrientedEdges detector(options);
-    const auto result = detector.run(in, sigma, *runner);
+    const auto result = detector.run(in, sigma, 1, *runner);
     return result ? std::string("none") : result.error().message;
   };
   EXPECT_NE(message({}, 1, {}).find("no pixels"), std::string::npos);

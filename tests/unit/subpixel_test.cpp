@@ -45,7 +45,7 @@ TEST(RefinePositions, AreExactOnAGaussianRidge) {
   for (int degrees = 0; degrees < 180; degrees += 15) {
     for (const double offset : {-0.4, -0.1, 0.0, 0.3}) {
       EdgeSet set = one_edgel(5, 5, degrees);
-      refine_positions(ridge(degrees, offset), 2.5, set);
+      refine_positions(ridge(degrees, offset), KernelSize{1.2, 2.5}, 1, set);
       const double along_normal =
           (set.edgels.x[0] - 5) * set.edgels.nx[0] + (set.edgels.y[0] - 5) * set.edgels.ny[0];
       EXPECT_NEAR(along_normal, offset, 1e-4) << degrees << " degrees";
@@ -55,7 +55,7 @@ TEST(RefinePositions, AreExactOnAGaussianRidge) {
 
 TEST(RefinePositions, NeverLeaveThePixel) {
   EdgeSet set = one_edgel(5, 5, 0);
-  refine_positions(ridge(0, 3), 2.5, set);
+  refine_positions(ridge(0, 3), KernelSize{1.2, 2.5}, 1, set);
   EXPECT_NEAR(set.edgels.x[0], 5.499, 1e-3);
   EXPECT_EQ(set.edgels.y[0], 5);
 }
@@ -64,10 +64,10 @@ TEST(RefinePositions, StayWhereThereIsNoMaximumAndAtTheBorder) {
   Image<float> flat(11, 11);
   fill_pixels(flat.view(), 1.0F);
   EdgeSet inside = one_edgel(5, 5, 30);
-  refine_positions(flat, 2.5, inside);
+  refine_positions(flat, KernelSize{1.2, 2.5}, 1, inside);
   EXPECT_EQ(inside.edgels.x[0], 5);
   EdgeSet border = one_edgel(0, 10, 30);
-  refine_positions(ridge(30, 0), 2.5, border);
+  refine_positions(ridge(30, 0), KernelSize{1.2, 2.5}, 1, border);
   EXPECT_EQ(border.edgels.x[0], 0);
 }
 
