@@ -1,8 +1,9 @@
-// Time of every stage of preset `paper` on a simulated frame of the paper's camera (382x288).
+// Time of every stage of the presets on a simulated frame of the paper's camera (382x288).
 #include <benchmark/benchmark.h>
 
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "thermedge/detector.hpp"
 #include "thermedge/sim/scene.hpp"
@@ -11,10 +12,8 @@ namespace thermedge {
 namespace {
 
 // Reports the mean of each stage beside the time of the whole frame.
-void detect(benchmark::State& state, DenoiseMethod method) {
+void detect(benchmark::State& state, DetectorOptions options) {
   const auto frame = sim::render({}, 0);
-  DetectorOptions options;
-  options.denoise.method = method;
   options.threads = static_cast<int>(state.range(0));
   auto detector = Detector::create(options);
   if (!frame || !detector) {
@@ -36,14 +35,17 @@ void detect(benchmark::State& state, DenoiseMethod method) {
 }
 
 void register_all() {
-  const std::pair<const char*, DenoiseMethod> methods[] = {
-      {"detect/none", DenoiseMethod::kNone},
-      {"detect/gaussian", DenoiseMethod::kGaussian},
-      {"detect/nlm", DenoiseMethod::kNlm},
-      {"detect/bm3d", DenoiseMethod::kBm3d},
-  };
-  for (const auto& [name, method] : methods) {
-    benchmark::RegisterBenchmark(name, detect, method)
+  std::vector<std::pair<std::string, DetectorOptions>> settings;
+  for (const auto& preset : kPresets) {
+    settings.emplace_back(preset.name, preset_options(preset.value));
+  }
+  for (const auto& method : kDenoiseMethods) {
+    DetectorOptions options = preset_options(Preset::kPaper);
+    options.denoise.method = method.value;
+    settings.emplace_back("paper/" + std::string(method.name), options);
+  }
+  for (const auto& [name, options] : settings) {
+    benchmark::RegisterBenchmark(("detect/" + name).c_str(), detect, options)
         ->Arg(1)
         ->Arg(2)
         ->ArgName("threads")

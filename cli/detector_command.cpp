@@ -31,6 +31,9 @@ void DetectorCommand::add_to(CLI::App& app) {
       ->check(CLI::Range(0, 1000000000));
   app.add_option("--max-edgels", max_edgels, "most edgels in the kept edges (0: any number)")
       ->check(CLI::Range(0, 1000000000));
+  app.add_option("--max-false-alarms", max_false_alarms,
+                 "false edges in a frame of noise that are put up with, on average (0: no test)")
+      ->check(CLI::Range(0.0, 1e9));
 }
 
 void DetectorCommand::add_denoising_to(CLI::App& app) {
@@ -54,6 +57,8 @@ Result<DetectorOptions> DetectorCommand::options() const {
   }
   options.selection.keep_edges = keep.value_or(options.selection.keep_edges);
   options.selection.max_edgels = max_edgels.value_or(options.selection.max_edgels);
+  options.selection.max_false_alarms =
+      max_false_alarms.value_or(options.selection.max_false_alarms);
   if (denoise) {
     if (Status status = io::apply_setting("denoise.method=" + *denoise, options); !status) {
       return tl::unexpected(status.error());

@@ -12,14 +12,15 @@
 namespace thermedge::cli {
 
 // The options of a command that runs the detector on frames: the common ones and --preset,
-// --config, --set, --dump-config, --keep, --max-edgels; --denoise and --sigma where a frame is
-// denoised.
+// --config, --set, --dump-config, --keep, --max-edgels, --max-false-alarms; --denoise and --sigma
+// where a frame is denoised.
 struct DetectorCommand {
   CommonOptions common;
   ConfigOptions config;
-  std::string preset = "paper";
+  std::string preset{preset_name(DetectorOptions{}.preset)};
   std::optional<int> keep;
   std::optional<int> max_edgels;
+  std::optional<double> max_false_alarms;
   std::optional<std::string> denoise;
   std::optional<std::string> sigma;
 

@@ -20,20 +20,42 @@ std::string out_of_range(const std::string& name, double value, Bounds bounds) {
          shortest(bounds.max);
 }
 
+NucOptions robust_nuc() {
+  NucOptions options;
+  options.stripes = true;
+  return options;
+}
+
+DenoiseOptions robust_denoise() {
+  DenoiseOptions options;
+  options.strength = 1.2;
+  options.shading = true;
+  options.ripple.range_sigmas = 0.2;
+  return options;
+}
+
+SelectionOptions robust_selection() {
+  SelectionOptions options;
+  options.keep_edges = 0;
+  options.min_score = 0.5;
+  options.max_false_alarms = 0.1;
+  return options;
+}
+
 }  // namespace detail
 
 DetectorOptions preset_options(Preset preset) {
-  DetectorOptions options;  // the defaults of the structs are those of the paper
+  DetectorOptions options;
   options.preset = preset;
-  if (preset == Preset::kRobust) {
-    options.edges = EdgeMethod::kOriented;
-    options.nuc.stripes = true;
-    options.denoise.strength = 1.2;
-    options.denoise.shading = true;
-    options.denoise.ripple.range_sigmas = 0.2;
-    options.selection.keep_edges = 0;
-    options.selection.min_score = 0.5;
-    options.selection.max_false_alarms = 0.1;
+  if (preset == Preset::kFast) {
+    options.denoise = {};
+    options.denoise.method = DenoiseMethod::kGaussian;
+    options.denoise.gaussian.sigma_px = 2;
+  } else if (preset == Preset::kPaper) {
+    options.edges = EdgeMethod::kCanny;
+    options.nuc = {};
+    options.denoise = {};
+    options.selection = {};
   }
   return options;
 }

@@ -88,10 +88,11 @@ struct ComparisonSheet::Impl {
       : options(chosen),
         runner(make_runner(chosen.detector.threads)),
         detector(std::move(made)),
-        denoiser(with_method(chosen.detector.denoise, chosen.classical_denoiser)),
+        denoiser(plain(chosen.classical_denoiser)),
         classical(chosen.classical) {}
 
-  static DenoiseOptions with_method(DenoiseOptions options, DenoiseMethod method) {
+  static DenoiseOptions plain(DenoiseMethod method) {
+    DenoiseOptions options;
     options.method = method;
     return options;
   }

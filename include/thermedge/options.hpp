@@ -28,7 +28,11 @@
 namespace thermedge {
 
 // Named sets of defaults. A preset is nothing but options: what it sets can be changed one by one.
-enum class Preset { kPaper, kRobust };
+enum class Preset {
+  kRobust,  // the default: the best edges
+  kFast,    // the same behind a Gaussian instead of BM3D
+  kPaper,   // the paper to the letter; what the structs of the stages default to
+};
 
 // How edge pixels are found, and what follows from it.
 enum class EdgeMethod {
@@ -37,13 +41,19 @@ enum class EdgeMethod {
               // segments and junctions; ranked by prominence and length, tested on the raw frame
 };
 
+namespace detail {
+NucOptions robust_nuc();
+DenoiseOptions robust_denoise();
+SelectionOptions robust_selection();
+}  // namespace detail
+
 struct DetectorOptions {
-  Preset preset = Preset::kPaper;
-  EdgeMethod edges = EdgeMethod::kCanny;
+  Preset preset = Preset::kRobust;
+  EdgeMethod edges = EdgeMethod::kOriented;
   int threads = 0;  // 0: one per core
-  NucOptions nuc;
+  NucOptions nuc = detail::robust_nuc();
   ScaleOptions scale;
-  DenoiseOptions denoise;
+  DenoiseOptions denoise = detail::robust_denoise();
   CannyOptions canny;
   OrientedOptions oriented;
   ContourOptions contours;
@@ -51,7 +61,7 @@ struct DetectorOptions {
   CornerOptions corners;
   LinkingOptions linking;
   ScoringOptions scoring;
-  SelectionOptions selection;
+  SelectionOptions selection = detail::robust_selection();
 };
 
 [[nodiscard]] DetectorOptions preset_options(Preset preset);
@@ -79,8 +89,9 @@ inline constexpr std::array kDenoiseMethods = {
 inline constexpr std::array kBm3dProfiles = {EnumName{Bm3dProfile::kQuality, "quality"},
                                              EnumName{Bm3dProfile::kBalanced, "balanced"},
                                              EnumName{Bm3dProfile::kFast, "fast"}};
-inline constexpr std::array kPresets = {EnumName{Preset::kPaper, "paper"},
-                                        EnumName{Preset::kRobust, "robust"}};
+inline constexpr std::array kPresets = {EnumName{Preset::kRobust, "robust"},
+                                        EnumName{Preset::kFast, "fast"},
+                                        EnumName{Preset::kPaper, "paper"}};
 inline constexpr std::array kEdgeMethods = {EnumName{EdgeMethod::kCanny, "canny"},
                                             EnumName{EdgeMethod::kOriented, "oriented"}};
 

@@ -16,16 +16,16 @@ namespace {
 
 using nlohmann::json;
 
-json detect(const std::string& spec) {
+json detect(const std::string& spec, Preset preset) {
   const auto scene = sim::parse_scene(spec);
   EXPECT_TRUE(scene);
   const auto frame = sim::render(*scene, 0);
   EXPECT_TRUE(frame);
-  auto detector = Detector::create({});
+  auto detector = Detector::create(preset_options(preset));
   EXPECT_TRUE(detector);
   const auto detection = detector->detect(frame->counts);
   EXPECT_TRUE(detection);
-  return json::parse(io::edges_to_json(**detection, {spec, "paper"}));
+  return json::parse(io::edges_to_json(**detection, {spec, std::string(preset_name(preset))}));
 }
 
 // Results are promised to be equal to the bit; the tolerance is for the decimals of the file only.
@@ -38,13 +38,19 @@ void expect_same_number(const json& found, const json& wanted, const std::string
   }
 }
 
-class GoldenEdges : public testing::TestWithParam<std::pair<const char*, const char*>> {};
+struct Golden {
+  std::string spec;
+  Preset preset;
+  std::string file;
+};
+
+class GoldenEdges : public testing::TestWithParam<Golden> {};
 
 TEST_P(GoldenEdges, AreAllThereAndNoOthers) {
-  const auto [spec, file] = GetParam();
-  const auto path = std::filesystem::path(THERMEDGE_TEST_DATA) / "golden" / file;
+  const auto& [spec, preset, file] = GetParam();
+  const auto path = std::filesystem::path(THERMEDGE_TEST_DATA) / "golden" / (file + ".json");
   const json wanted = json::parse(test::file_text(path));
-  const json found = detect(spec);
+  const json found = detect(spec, preset);
   ASSERT_GT(wanted["edges"].size(), 5U);
   ASSERT_EQ(found["edges"].size(), wanted["edges"].size());
   EXPECT_EQ(found["junctions"], wanted["junctions"]);
@@ -61,10 +67,13 @@ TEST_P(GoldenEdges, AreAllThereAndNoOthers) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, GoldenEdges,
-                         testing::Values(std::pair{"sim:desk", "desk.json"},
-                                         std::pair{"sim:corridor?sigma=20",
-                                                   "corridor_sigma20.json"}));
+INSTANTIATE_TEST_SUITE_P(
+    All, GoldenEdges,
+    testing::Values(Golden{"sim:desk", Preset::kPaper, "paper_desk"},
+                    Golden{"sim:corridor?sigma=20", Preset::kPaper, "paper_corridor_sigma20"},
+                    Golden{"sim:desk?sigma=20", Preset::kRobust, "robust_desk_sigma20"},
+                    Golden{"sim:corridor?sigma=8", Preset::kRobust, "robust_corridor_sigma8"}),
+    [](const auto& test) { return test.param.file; });
 
 }  // namespace
 }  // namespace thermedge

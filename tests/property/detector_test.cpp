@@ -72,7 +72,7 @@ void expect_all_sizes_taken(const DetectorOptions& options, int smallest, int la
 class EveryDenoiser : public testing::TestWithParam<DenoiseMethod> {};
 
 TEST_P(EveryDenoiser, GivesTheSameEdgesForAllThreadCountsAndSimdTargets) {
-  DetectorOptions options;
+  DetectorOptions options = preset_options(Preset::kPaper);
   options.denoise.method = GetParam();
   options.contours.min_component_px = 10;
   expect_the_same_everywhere(options);
@@ -213,7 +213,7 @@ TEST(Detector, IsBlindToAnOffsetOfTheCounts) {
 
 TEST(Detector, KeepsBudgetsAndRanks) {
   const auto frame = small_desk(6);
-  DetectorOptions options;
+  DetectorOptions options = preset_options(Preset::kPaper);
   options.contours.min_component_px = 0;
   options.selection.keep_edges = 5;
   Detector one = detector(options);
@@ -231,7 +231,9 @@ TEST(Detector, KeepsBudgetsAndRanks) {
   }
 }
 
-TEST(Detector, TakesEveryFrameFromOnePixelUp) { expect_all_sizes_taken({}, 1, 20); }
+TEST(Detector, TakesEveryFrameFromOnePixelUp) {
+  expect_all_sizes_taken(preset_options(Preset::kPaper), 1, 20);
+}
 
 TEST(Detector, FindsNothingInAFlatFrame) {
   Image<std::uint16_t> flat(100, 80);
@@ -257,8 +259,8 @@ TEST(Detector, TakesAViewIntoALargerBuffer) {
 
 TEST(Detector, TraceOfItsOwnEdgeMapGivesItsEdges) {
   const auto frame = small_desk(6);
-  Detector one = detector({});
-  Detector other = detector({});
+  Detector one = detector(preset_options(Preset::kPaper));
+  Detector other = detector(preset_options(Preset::kPaper));
   const Detection& detected = **one.detect(frame.counts);
   const Detection& traced = **other.trace(detected.edge_map);
   ASSERT_EQ(detected.edges.edges.size(), traced.edges.edges.size());

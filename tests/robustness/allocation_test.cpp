@@ -83,16 +83,18 @@ void expect_none_after_the_second_frame(const DetectorOptions& options) {
 
 TEST(Allocation, OfTheRobustDetectorIsNoneAfterTheSecondFrame) {
   for (const int threads : {1, 2}) {
-    DetectorOptions options = preset_options(Preset::kRobust);
-    options.threads = threads;
-    expect_none_after_the_second_frame(options);
+    for (const Preset preset : {Preset::kRobust, Preset::kFast}) {
+      DetectorOptions options = preset_options(preset);
+      options.threads = threads;
+      expect_none_after_the_second_frame(options);
+    }
   }
 }
 
 class AllocationOf : public testing::TestWithParam<std::tuple<DenoiseMethod, int>> {};
 
 TEST_P(AllocationOf, ADetectorIsNoneAfterTheSecondFrame) {
-  DetectorOptions options;
+  DetectorOptions options = preset_options(Preset::kPaper);
   std::tie(options.denoise.method, options.threads) = GetParam();
   options.nuc.stripes = true;
   options.contours.min_component_px = 0;  // as many curves as there can be

@@ -64,7 +64,7 @@ TEST_F(Program, JsonHasWhatIsPromised) {
   const auto json = nlohmann::json::parse(file_text(directory_ / "x.json"));
   EXPECT_EQ(json["width"], 96);
   EXPECT_EQ(json["height"], 72);
-  EXPECT_EQ(json["preset"], "paper");
+  EXPECT_EQ(json["preset"], "robust");
   ASSERT_EQ(json["edges"].size(), 3U);
   for (const auto& edge : json["edges"]) {
     for (const std::string key :
