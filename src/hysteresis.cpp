@@ -1,17 +1,11 @@
 #include "hysteresis.hpp"
 
 #include <algorithm>
-#include <cstring>
 
 #include "simd/suppress.hpp"
 
 namespace thermedge::detail {
 namespace {
-
-std::uint8_t* find_strong(std::uint8_t* begin, std::uint8_t* end) {
-  void* found = std::memchr(begin, kStrongEdge, static_cast<std::size_t>(end - begin));
-  return found != nullptr ? static_cast<std::uint8_t*>(found) : end;
-}
 
 // Marks all that is connected with `seed`. Pixels of the border have no class, so all neighbours
 // that are looked at lie inside.
@@ -49,10 +43,10 @@ void apply_hysteresis(ImageView<std::uint8_t> classes, std::size_t min_group_px,
                       std::vector<std::ptrdiff_t>& scratch) {
   for (int y = 1; y + 1 < classes.height(); ++y) {
     std::uint8_t* const row_end = classes.row(y) + classes.width();
-    std::uint8_t* seed = find_strong(classes.row(y), row_end);
+    std::uint8_t* seed = find_pixel(classes.row(y), row_end, kStrongEdge);
     while (seed != row_end) {
       keep_group(classes, seed - classes.data(), min_group_px, scratch);
-      seed = find_strong(seed, row_end);
+      seed = find_pixel(seed, row_end, kStrongEdge);
     }
   }
   for (int y = 1; y + 1 < classes.height(); ++y) {

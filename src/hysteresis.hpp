@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <vector>
 
 #include "thermedge/image.hpp"
@@ -10,6 +11,12 @@
 namespace thermedge::detail {
 
 inline constexpr std::uint8_t kKeptEdge = 255;
+
+// The first pixel of this value, or `end`.
+inline std::uint8_t* find_pixel(std::uint8_t* begin, std::uint8_t* end, std::uint8_t value) {
+  void* found = std::memchr(begin, value, static_cast<std::size_t>(end - begin));
+  return found != nullptr ? static_cast<std::uint8_t*>(found) : end;
+}
 
 // Keeps the 8-connected groups of at least `min_group_px` pixels that hold a strong one. `classes`:
 // of PixelClass, those of the border kNoEdge; afterwards kKeptEdge or kNoEdge. `scratch` grows to

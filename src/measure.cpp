@@ -89,12 +89,13 @@ std::optional<double> sample(ImageView<const std::uint16_t> frame, Vector at) {
   }
   const int x = static_cast<int>(at.x);
   const int y = static_cast<int>(at.y);
-  const int right = std::min(x + 1, last_x);
-  const int below = std::min(y + 1, last_y);
+  const std::uint16_t* row = frame.row(y) + x;
+  const std::uint16_t* below = y < last_y ? row + frame.stride() : row;
+  const int right = x < last_x ? 1 : 0;
   const double fx = at.x - x;
   const double fy = at.y - y;
-  const double upper = frame(x, y) + fx * (frame(right, y) - frame(x, y));
-  const double lower = frame(x, below) + fx * (frame(right, below) - frame(x, below));
+  const double upper = row[0] + fx * (row[right] - row[0]);
+  const double lower = below[0] + fx * (below[right] - below[0]);
   return upper + fy * (lower - upper);
 }
 

@@ -390,16 +390,21 @@ void OrientedEdges::Impl::project(int band, int y_begin, int y_end, double sigma
 
 // By how much the strength of a pixel is over that of both sides; a slope is as strong all over.
 float OrientedEdges::Impl::prominence_at(int x, int y) const {
-  const Across& step = steps[static_cast<std::size_t>(direction(x, y))];
-  const auto side = [&](std::size_t i, int sign) {
-    int side_x = x + sign * step.side_x[i];
-    int side_y = y + sign * step.side_y[i];
-    if (!edges.view().contains(side_x, side_y)) {
-      side_x = detail::mirrored(side_x, width);
-      side_y = detail::mirrored(side_y, height);
-    }
-    const int turn = std::abs(direction(side_x, side_y) - direction(x, y));
+  const std::int32_t own = direction(x, y);
+  const auto at = [&](int side_x, int side_y) {
+    const int turn = std::abs(direction(side_x, side_y) - own);
     return turn <= 3 || turn >= 2 * kDirections - 3 ? strength(side_x, side_y) : 0.0F;
+  };
+  const Across& step = steps[static_cast<std::size_t>(own)];
+  const int reach = kSidesPx[sides - 1];
+  const bool inside = x >= reach && y >= reach && x < width - reach && y < height - reach;
+  const auto side = [&](std::size_t i, int sign) {
+    const int side_x = x + sign * step.side_x[i];
+    const int side_y = y + sign * step.side_y[i];
+    if (inside || edges.view().contains(side_x, side_y)) {
+      return at(side_x, side_y);
+    }
+    return at(detail::mirrored(side_x, width), detail::mirrored(side_y, height));
   };
   float least = side(0, 1) + side(0, -1);
   for (std::size_t i = 1; i < sides; ++i) {
@@ -410,31 +415,41 @@ float OrientedEdges::Impl::prominence_at(int x, int y) const {
 
 // Sets the prominence and the class, before hysteresis, of a pixel on a ridge.
 void OrientedEdges::Impl::classify(int x, int y) {
-  prominence(x, y) = prominence_at(x, y);
-  edges(x, y) = prominence(x, y) > static_cast<float>(options.high)  ? detail::kStrongEdge
-                : prominence(x, y) > static_cast<float>(options.low) ? detail::kWeakEdge
-                                                                     : detail::kNoEdge;
+  const float over = prominence_at(x, y);
+  prominence(x, y) = over;
+  edges(x, y) = over > static_cast<float>(options.high)  ? detail::kStrongEdge
+                : over > static_cast<float>(options.low) ? detail::kWeakEdge
+                                                         : detail::kNoEdge;
 }
 
 // Leaves in `edges` the class of each pixel before hysteresis.
 void OrientedEdges::Impl::suppress(int y_begin, int y_end) {
   const auto low = static_cast<float>(options.low);
-  const std::ptrdiff_t stride = strength.stride();
+  struct Neighbours {
+    std::ptrdiff_t first, second;
+    float share;
+  };
+  std::array<Neighbours, 2 * kDirections> neighbours;
+  for (std::size_t i = 0; i < neighbours.size(); ++i) {
+    const std::ptrdiff_t stride = strength.stride();
+    neighbours[i] = {steps[i].first_y * stride + steps[i].first_x,
+                     steps[i].second_y * stride + steps[i].second_x, steps[i].share};
+  }
   for (int y = y_begin; y < y_end; ++y) {
     std::fill_n(edges.row(y), width, detail::kNoEdge);
     if (y == 0 || y == height - 1) {
       continue;
     }
+    const float* row = strength.row(y);
+    const std::int32_t* directions = direction.row(y);
     for (int x = 1; x + 1 < width; ++x) {
-      const float* at = strength.row(y) + x;
+      const float* at = row + x;
       if (!(*at > low)) {
         continue;
       }
-      const Across& step = steps[static_cast<std::size_t>(direction(x, y))];
-      const std::ptrdiff_t first = step.first_y * stride + step.first_x;
-      const std::ptrdiff_t second = step.second_y * stride + step.second_x;
-      const float ahead = at[first] + step.share * (at[second] - at[first]);
-      const float behind = at[-first] + step.share * (at[-second] - at[-first]);
+      const auto [first, second, share] = neighbours[static_cast<std::size_t>(directions[x])];
+      const float ahead = at[first] + share * (at[second] - at[first]);
+      const float behind = at[-first] + share * (at[-second] - at[-first]);
       if (*at >= ahead && *at > behind) {
         classify(x, y);
       }
@@ -444,28 +459,28 @@ void OrientedEdges::Impl::suppress(int y_begin, int y_end) {
 
 // Near fine edges only they are edges.
 void OrientedEdges::Impl::merge_fine() {
+  constexpr std::array kHalfWidths = {0, 1, 2, 1, 0};  // of the rows of a disc of 2 px
   constexpr int kReach = 2;
-  for (int y = 1; y + 1 < height; ++y) {
-    for (int x = 1; x + 1 < width; ++x) {
-      if (fine_classes(x, y) == detail::kNoEdge) {
-        continue;
-      }
-      for (int dy = -kReach; dy <= kReach; ++dy) {
-        for (int dx = -kReach; dx <= kReach; ++dx) {
-          if (dx * dx + dy * dy <= kReach * kReach && edges.view().contains(x + dx, y + dy)) {
-            edges(x + dx, y + dy) = detail::kNoEdge;
-          }
-        }
+  const auto for_each_fine = [&](auto&& task) {
+    for (int y = 1; y + 1 < height; ++y) {
+      std::uint8_t* const row = fine_classes.row(y);
+      std::uint8_t* const end = row + width - 1;
+      std::uint8_t* at = row + 1;
+      while ((at = detail::find_pixel(at, end, detail::kKeptEdge)) != end) {
+        task(static_cast<int>(at++ - row), y);
       }
     }
-  }
-  for (int y = 1; y + 1 < height; ++y) {
-    for (int x = 1; x + 1 < width; ++x) {
-      if (fine_classes(x, y) != detail::kNoEdge) {
-        classify(x, y);
+  };
+  for_each_fine([&](int x, int y) {
+    for (int dy = -kReach; dy <= kReach; ++dy) {
+      if (y + dy >= 0 && y + dy < height) {
+        const int half = kHalfWidths[static_cast<std::size_t>(dy + kReach)];
+        std::fill(edges.row(y + dy) + std::max(x - half, 0),
+                  edges.row(y + dy) + std::min(x + half + 1, width), detail::kNoEdge);
       }
     }
-  }
+  });
+  for_each_fine([&](int x, int y) { classify(x, y); });
 }
 
 OrientedEdges::OrientedEdges(const OrientedOptions& options)
