@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdlib>
-#include <limits>
 #include <numbers>
 
 namespace thermedge::detail {
@@ -195,7 +194,7 @@ void StripeMask::reach_right(ImageView<std::uint16_t> reach) const {
   for (int y = 0; y < reach.height(); ++y) {
     const std::uint8_t* edges = edges_.row(y);
     std::uint16_t* row = reach.row(y);
-    std::uint16_t distance = std::numeric_limits<std::uint16_t>::max() / 2;  // beyond the frame
+    std::uint16_t distance = kNoEdge;
     for (int x = reach.width() - 1; x >= 0; --x) {
       distance = edges[x / 2] != 0 || upright_(x / 2, y) != 0
                      ? 0
@@ -208,7 +207,7 @@ void StripeMask::reach_right(ImageView<std::uint16_t> reach) const {
 void StripeMask::reach_down(ImageView<std::uint16_t> reach) const {
   for (int x = 0; x < reach.height(); ++x) {
     std::uint16_t* row = reach.row(x);
-    std::uint16_t distance = std::numeric_limits<std::uint16_t>::max() / 2;
+    std::uint16_t distance = kNoEdge;
     for (int y = reach.width() - 1; y >= 0; --y) {
       distance = edges_(x, y / 2) != 0 || level_(y / 2, x) != 0
                      ? 0

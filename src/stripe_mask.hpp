@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -13,6 +14,8 @@ namespace thermedge::detail {
 // time. In whole numbers, so that a transposed frame has the transposed mask.
 class StripeMask {
  public:
+  static constexpr std::uint16_t kNoEdge = std::numeric_limits<std::uint16_t>::max() / 2;
+
   void prepare(int width, int height);
 
   // Edges are where the gradient of the frame less its offsets exceeds `gradients` times what pixel
@@ -21,7 +24,8 @@ class StripeMask {
   void find(ImageView<const std::uint16_t> frame, std::span<const double> columns,
             std::span<const double> rows, double sigma, double gradients, bool with_long);
 
-  // reach(x, y / 2): how far to the right of pixel (x, y) the next edge is, px; 0 on an edge.
+  // reach(x, y / 2): how far to the right of pixel (x, y) the next edge is, px; 0 on an edge;
+  // kNoEdge or more where there is none.
   // Half as many rows as the frame, rounded up.
   void reach_right(ImageView<std::uint16_t> reach) const;
   // The same downwards; a picture of the transposed frame.

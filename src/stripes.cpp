@@ -18,12 +18,11 @@ namespace {
 constexpr std::array kLags = {1, 2, 3, 4, 6, 8};
 constexpr int kLargestLag = kLags.back();
 constexpr int kSmallestSide = 64;
-constexpr int kPartRows = 2 * detail::kMostLagRows;  // that one task adds up
 // Differences beyond this many sigma are edges of the scene, whatever lies between.
 constexpr double kEdgeSigmas = 5;
-// Gradients, in units of what pixel noise makes of them, that are edges. The stripes themselves
-// are still in the way in the first round.
-constexpr std::array kEdgeGradients = {1e9, 5.0, 4.5};
+// Gradients, in units of what pixel noise makes of them, that are edges, in the rounds behind the
+// first, in which the stripes are still in the way.
+constexpr std::array kEdgeGradients = {5.0, 4.5};
 constexpr double kJumpZ = 4.5;  // of a lasting jump of the profile
 constexpr int kMostJumps = 24;
 constexpr std::array kJumpWindows = {5, 8, 12, 18, 26};
@@ -48,7 +47,7 @@ class ColumnOffsets {
   // Fills offsets(), in units of `sigma`, from pairs of pixels with no edge between them: `reach`
   // as StripeMask gives it. Returns whether there are stripes.
   bool measure(ImageView<const std::uint16_t> counts, ImageView<const std::uint16_t> reach,
-               double sigma, Runner& runner);
+               double sigma);
   [[nodiscard]] std::span<const double> offsets() const { return offsets_; }
   // The offsets, and the slope of the scene that goes on from side to side.
   [[nodiscard]] std::span<const double> background() const { return background_; }
@@ -63,12 +62,10 @@ class ColumnOffsets {
     std::int32_t number = 0;
   };
 
-  [[nodiscard]] Sum& sum(int part, int lag_index, int x) {
-    return sums_[index((part * static_cast<int>(kLags.size()) + lag_index) * columns_ + x)];
-  }
+  [[nodiscard]] Sum& sum(int lag_index, int x) { return sums_[index(lag_index * columns_ + x)]; }
   [[nodiscard]] Pair& pair(int lag_index, int x) { return pairs_[index(lag_index * columns_ + x)]; }
 
-  void add_up(ImageView<const std::uint16_t> counts, ImageView<const std::uint16_t> reach, int part,
+  void add_up(ImageView<const std::uint16_t> counts, ImageView<const std::uint16_t> reach,
               int limit);
   void find_pairs(double sigma);
   detail::Line remove_slope();
@@ -81,9 +78,8 @@ class ColumnOffsets {
 
   int columns_ = 0;
   int rows_ = 0;
-  int parts_ = 0;
-  std::vector<Sum> sums_;                             // of each part, lag and column
-  std::vector<std::int16_t> row_sums_, row_numbers_;  // of the tasks
+  std::vector<Sum> sums_;                             // of each lag and column
+  std::vector<std::int16_t> row_sums_, row_numbers_;  // of some rows
   std::vector<Pair> pairs_;                           // of each lag
   std::vector<double> band_;                          // of the normal equations, row by row
   std::vector<double> profile_, offsets_, background_, sorted_, cumulated_, clearness_;
@@ -95,12 +91,11 @@ class ColumnOffsets {
 void ColumnOffsets::prepare(int columns, int rows) {
   columns_ = columns;
   rows_ = rows;
-  parts_ = (rows + kPartRows - 1) / kPartRows;
   const std::size_t n = index(columns);
-  sums_.resize(index(parts_) * kLags.size() * n);
+  sums_.resize(kLags.size() * n);
   const std::size_t padded = n + Image<std::int16_t>::kAlignmentBytes;
-  row_sums_.resize(index(parts_) * padded);
-  row_numbers_.resize(index(parts_) * padded);
+  row_sums_.resize(padded);
+  row_numbers_.resize(padded);
   pairs_.resize(kLags.size() * n);
   band_.resize((kLargestLag + 1) * n);
   profile_.resize(n);
@@ -117,22 +112,18 @@ void ColumnOffsets::prepare(int columns, int rows) {
 }
 
 void ColumnOffsets::add_up(ImageView<const std::uint16_t> counts,
-                           ImageView<const std::uint16_t> reach, int part, int limit) {
-  const std::size_t padded = row_sums_.size() / index(parts_);
-  std::int16_t* sums = row_sums_.data() + index(part) * padded;
-  std::int16_t* numbers = row_numbers_.data() + index(part) * padded;
-  const int end = std::min((part + 1) * kPartRows, rows_);
+                           ImageView<const std::uint16_t> reach, int limit) {
+  std::fill(sums_.begin(), sums_.end(), Sum{});
   for (int i = 0; i < static_cast<int>(kLags.size()); ++i) {
     const int pairs = columns_ - kLags[index(i)];
-    std::fill_n(&sum(part, i, 0), columns_, Sum{});
-    for (int y = part * kPartRows; y < end; y += detail::kMostLagRows) {
-      const int rows = std::min(detail::kMostLagRows, end - y);
+    for (int y = 0; y < rows_; y += detail::kMostLagRows) {
+      const int rows = std::min(detail::kMostLagRows, rows_ - y);
       detail::lag_sums(counts.crop(0, y, columns_, rows),
-                       reach.crop(0, y / 2, columns_, (rows + 1) / 2), kLags[index(i)], limit, sums,
-                       numbers);
+                       reach.crop(0, y / 2, columns_, (rows + 1) / 2), kLags[index(i)], limit,
+                       row_sums_.data(), row_numbers_.data());
       for (int x = 0; x < pairs; ++x) {
-        sum(part, i, x).sum += sums[x];
-        sum(part, i, x).number += numbers[x];
+        sum(i, x).sum += row_sums_[index(x)];
+        sum(i, x).number += row_numbers_[index(x)];
       }
     }
   }
@@ -144,11 +135,7 @@ void ColumnOffsets::find_pairs(double sigma) {
   for (int i = 0; i < static_cast<int>(kLags.size()); ++i) {
     const int lag = kLags[index(i)];
     for (int x = 0; x + lag < columns_; ++x) {
-      Sum all;
-      for (int part = 0; part < parts_; ++part) {
-        all.sum += sum(part, i, x).sum;
-        all.number += sum(part, i, x).number;
-      }
+      const Sum& all = sum(i, x);
       const bool enough = all.number >= kLeastShare * rows_;
       pair(i, x) = enough ? Pair{all.sum / (sigma * all.number), 1.0 * all.number / rows_}
                           : Pair{0, lag == 1 ? 1.0 : 0.0};
@@ -319,10 +306,10 @@ double ColumnOffsets::variance_of_noise() {
 }
 
 bool ColumnOffsets::measure(ImageView<const std::uint16_t> counts,
-                            ImageView<const std::uint16_t> reach, double sigma, Runner& runner) {
+                            ImageView<const std::uint16_t> reach, double sigma) {
   const auto limit =
       static_cast<int>(std::clamp(kEdgeSigmas * sigma, 1.0, 1.0 * detail::kLargestLagDifference));
-  runner.run(parts_, [&](int part) { add_up(counts, reach, part, limit); });
+  add_up(counts, reach, limit);
   std::fill(offsets_.begin(), offsets_.end(), 0.0);
   find_pairs(sigma);
   const detail::Line slope = remove_slope();
@@ -393,13 +380,24 @@ void StripeFinder::measure(ImageView<const std::uint16_t> frame, double sigma_co
   }
   bool in_columns = false;
   bool in_rows = false;
+  const auto measure_both = [&] {
+    runner.run(2, [&](int i) {
+      if (i == 0) {
+        in_columns = impl_->columns.measure(impl_->copy, impl_->reach, sigma_counts);
+      } else {
+        in_rows = impl_->rows.measure(impl_->transposed, impl_->transposed_reach, sigma_counts);
+      }
+    });
+  };
+  fill_pixels(impl_->reach.view(), detail::StripeMask::kNoEdge);
+  fill_pixels(impl_->transposed_reach.view(), detail::StripeMask::kNoEdge);
+  measure_both();
   for (const double gradient : kEdgeGradients) {
     impl_->mask.find(frame, impl_->columns.background(), impl_->rows.background(), sigma_counts,
                      gradient, gradient == kEdgeGradients.back());
     impl_->mask.reach_right(impl_->reach);
     impl_->mask.reach_down(impl_->transposed_reach);
-    in_columns = impl_->columns.measure(impl_->copy, impl_->reach, sigma_counts, runner);
-    in_rows = impl_->rows.measure(impl_->transposed, impl_->transposed_reach, sigma_counts, runner);
+    measure_both();
   }
   const auto in_counts = [&](double offset) { return static_cast<float>(offset * sigma_counts); };
   if (in_columns) {
