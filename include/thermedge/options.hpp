@@ -30,7 +30,7 @@ namespace thermedge {
 // Named sets of defaults. A preset is nothing but options: what it sets can be changed one by one.
 enum class Preset {
   kRobust,  // the default: the best edges
-  kFast,    // the same behind a Gaussian instead of BM3D
+  kFast,    // the same behind a Gaussian and a bilateral filter instead of BM3D
   kPaper,   // the paper to the letter; what the structs of the stages default to
 };
 

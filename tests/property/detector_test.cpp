@@ -88,6 +88,7 @@ INSTANTIATE_TEST_SUITE_P(All, EveryDenoiser,
 
 TEST(RobustDetector, GivesTheSameEdgesForAllThreadCountsAndSimdTargets) {
   expect_the_same_everywhere(preset_options(Preset::kRobust));
+  expect_the_same_everywhere(preset_options(Preset::kFast));
 }
 
 // Offsets of columns and rows, dead pixels, and corners darker by `vignetting`.
@@ -110,9 +111,11 @@ void spoil(Image<std::uint16_t>& frame, double stripe_sigma, double vignetting,
 }
 
 // One false edge in ten frames is allowed.
-TEST(RobustDetector, FindsNothingInNoise) {
+class Presets : public testing::TestWithParam<Preset> {};
+
+TEST_P(Presets, FindNothingInNoise) {
   std::mt19937 random(11);
-  Detector one = detector(preset_options(Preset::kRobust));
+  Detector one = detector(preset_options(GetParam()));
   std::size_t found = 0;
   constexpr int kFrames = 18;
   for (int i = 0; i < kFrames; ++i) {
@@ -126,6 +129,9 @@ TEST(RobustDetector, FindsNothingInNoise) {
   }
   EXPECT_LE(found, 1U);
 }
+
+INSTANTIATE_TEST_SUITE_P(OfCountsInNoise, Presets, testing::Values(Preset::kRobust, Preset::kFast),
+                         [](const auto& test) { return std::string(preset_name(test.param)); });
 
 // The pixels of the kept edges.
 std::set<std::pair<float, float>> kept_pixels(const EdgeSet& set) {
