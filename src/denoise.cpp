@@ -149,7 +149,9 @@ struct Denoiser::Impl {
 
   // Prepares all the same, so that a clean first frame counts as one.
   Status copy_clean(ImageView<const float> in, ImageView<float> out) {
-    if (options.method == DenoiseMethod::kNlm) {
+    if (options.method == DenoiseMethod::kGaussian) {
+      gaussian.prepare(in.width(), in.height());
+    } else if (options.method == DenoiseMethod::kNlm) {
       nlm.prepare(in.width(), in.height());
     } else if (options.method == DenoiseMethod::kBm3d) {
       bm3d.prepare(in.width(), in.height());

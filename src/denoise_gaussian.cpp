@@ -13,6 +13,8 @@ namespace {
 constexpr int kRowsPerTask = 16;
 constexpr int kScratchRows = 3;  // of a task
 
+int tasks(int height) { return (height + kRowsPerTask - 1) / kRowsPerTask; }
+
 }  // namespace
 
 int GaussianFilter::radius() const {
@@ -44,18 +46,22 @@ void GaussianFilter::filter_row(int y, float* scratch, float* more_scratch, floa
   smooth_row(scratch + reach, 1, weights_.data(), reach, width, result);
 }
 
-void GaussianFilter::run(ImageView<const float> in, ImageView<float> out, Runner& runner) {
+void GaussianFilter::prepare(int width, int height) {
   if (weights_.empty() && options_.sigma_px > 0) {
     make_weights();
   }
   const int reach = radius();
-  const int tasks = (in.height() + kRowsPerTask - 1) / kRowsPerTask;
-  padded_.resize(in.width() + 2 * reach, in.height() + 2 * reach);
-  rows_.resize(padded_.width(), kScratchRows * tasks);
+  padded_.resize(width + 2 * reach, height + 2 * reach);
+  rows_.resize(padded_.width(), kScratchRows * tasks(height));
+}
+
+void GaussianFilter::run(ImageView<const float> in, ImageView<float> out, Runner& runner) {
+  prepare(in.width(), in.height());
+  const int reach = radius();
   for (int y = 0; y < padded_.height(); ++y) {
     mirrored_row(in, y - reach, reach, padded_.width(), padded_.row(y));
   }
-  runner.run(tasks, [&](int task) {
+  runner.run(tasks(in.height()), [&](int task) {
     const int end = std::min((task + 1) * kRowsPerTask, out.height());
     for (int y = task * kRowsPerTask; y < end; ++y) {
       const bool is_short = out.width() < kGaussianSlack;

@@ -11,6 +11,9 @@ class GaussianFilter {
  public:
   explicit GaussianFilter(const GaussianOptions& options) : options_(options) {}
 
+  // For frames of this size; run does it otherwise.
+  void prepare(int width, int height);
+
   // `out` may be `in`.
   void run(ImageView<const float> in, ImageView<float> out, Runner& runner);
 

@@ -20,7 +20,7 @@ constexpr double kStripesLeft = 0.08;
 // Noise below this share of the frame's range is none.
 constexpr double kNoNoise = 0.002;
 // Noise of such shares of the range is next to no burden, and a full one.
-constexpr double kCleanNoise = 0.03;
+constexpr double kCleanNoise = 0.036;
 constexpr double kFullNoise = 0.05;
 
 using Clock = std::chrono::steady_clock;

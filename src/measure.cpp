@@ -260,7 +260,7 @@ void measure_edges(ImageView<const std::uint16_t> frame, double sigma_counts, Ed
 void measure_edges(ImageView<const std::uint16_t> frame, double sigma_counts,
                    ImageView<const std::int32_t> direction, const SignificanceOptions& options,
                    EdgeSet& edges) {
-  constexpr double kPixelsPerTest = 64;
+  constexpr double kPixelsPerTest = 4096;
   constexpr double kFarthestPx = 5.5;
   const double tests = std::max(static_cast<double>(frame.size()) / kPixelsPerTest, 1.0);
   Edgels& edgels = edges.edgels;

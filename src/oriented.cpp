@@ -462,7 +462,7 @@ void OrientedEdges::Impl::merge_fine() {
   constexpr std::array kHalfWidths = {0, 1, 2, 1, 0};  // of the rows of a disc of 2 px
   constexpr int kReach = 2;
   const auto for_each_fine = [&](auto&& task) {
-    for (int y = 1; y + 1 < height; ++y) {
+    for (int y = 1; y + 1 < height && width > 2; ++y) {
       std::uint8_t* const row = fine_classes.row(y);
       std::uint8_t* const end = row + width - 1;
       std::uint8_t* at = row + 1;

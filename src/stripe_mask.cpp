@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdlib>
 #include <numbers>
+#include <span>
 
 namespace thermedge::detail {
 namespace {
@@ -52,44 +53,71 @@ void repeat_border(ImageView<std::int32_t> picture) {
   }
 }
 
-// Marks where the mean of `steps`, of this standard deviation, over a window of rows is over noise,
-// and the columns beside it.
-void mark_long(ImageView<const std::int32_t> steps, double deviation,
-               std::vector<std::int32_t>& sums, ImageView<std::uint8_t> marks) {
+// task(y, sums, rows): of the `rows` rows around y, `reach` to either side.
+template <class F>
+void for_each_window(ImageView<const std::int32_t> steps, int reach,
+                     std::vector<std::int32_t>& sums, F&& task) {
   const int width = steps.width();
   const int height = steps.height();
-  for (const int reach : kLongReach) {
-    std::fill(sums.begin(), sums.begin() + width, 0);
-    const auto add = [&](int y, int sign) {
-      const std::int32_t* row = steps.row(y);
-      for (int x = 0; x < width; ++x) {
-        sums[static_cast<std::size_t>(x)] += sign * row[x];
-      }
-    };
-    for (int y = 0; y < std::min(reach, height); ++y) {
-      add(y, 1);
+  std::fill(sums.begin(), sums.begin() + width, 0);
+  const auto add = [&](int y, int sign) {
+    const std::int32_t* row = steps.row(y);
+    for (int x = 0; x < width; ++x) {
+      sums[static_cast<std::size_t>(x)] += sign * row[x];
     }
-    for (int y = 0; y < height; ++y) {
-      if (y + reach < height) {
-        add(y + reach, 1);
-      }
-      if (y - reach - 1 >= 0) {
-        add(y - reach - 1, -1);
-      }
-      const int rows = std::min(y + reach + 1, height) - std::max(y - reach, 0);
-      const auto threshold =
-          static_cast<std::int32_t>(std::lround(kLongZ * deviation * std::sqrt(rows)));
-      std::uint8_t* marked = marks.row(y);
-      for (int x = 1; x + 1 < width; ++x) {
-        if (std::abs(sums[static_cast<std::size_t>(x)]) > threshold) {
-          marked[x - 1] = marked[x] = marked[x + 1] = 1;
-        }
-      }
+  };
+  for (int y = 0; y < std::min(reach, height); ++y) {
+    add(y, 1);
+  }
+  for (int y = 0; y < height; ++y) {
+    if (y + reach < height) {
+      add(y + reach, 1);
     }
+    if (y - reach - 1 >= 0) {
+      add(y - reach - 1, -1);
+    }
+    task(y, std::span<const std::int32_t>(sums).first(static_cast<std::size_t>(width)),
+         std::min(y + reach + 1, height) - std::max(y - reach, 0));
   }
 }
 
 }  // namespace
+
+// Marks where the mean of `steps`, of which noise has this deviation, over a window of rows stands
+// out, and the columns beside it. What most windows have is no edge: stripes that are still there.
+void StripeMask::mark_long(ImageView<const std::int32_t> steps, double deviation,
+                           ImageView<std::uint8_t> marks) {
+  constexpr double kQuantile = 0.2;
+  constexpr double kQuantileOfNoise = 0.2533;  // P(|Z| < this) = 0.2
+  constexpr int kSampleRows = 5;
+  for (const int reach : kLongReach) {
+    sample_.clear();
+    for_each_window(steps, reach, step_sums_,
+                    [&](int y, std::span<const std::int32_t> sums, int rows) {
+                      if (y % kSampleRows == 0) {
+                        const auto scale = static_cast<float>(1 / std::sqrt(rows));
+                        for (const std::int32_t sum : sums) {
+                          sample_.push_back(scale * static_cast<float>(std::abs(sum)));
+                        }
+                      }
+                    });
+    const auto at = sample_.begin() +
+                    static_cast<std::ptrdiff_t>(kQuantile * static_cast<double>(sample_.size()));
+    std::nth_element(sample_.begin(), at, sample_.end());
+    const double usual = std::max(deviation, *at / kQuantileOfNoise);
+    for_each_window(steps, reach, step_sums_,
+                    [&](int y, std::span<const std::int32_t> sums, int rows) {
+                      const auto threshold =
+                          static_cast<std::int32_t>(std::lround(kLongZ * usual * std::sqrt(rows)));
+                      std::uint8_t* marked = marks.row(y);
+                      for (std::size_t x = 1; x + 1 < sums.size(); ++x) {
+                        if (std::abs(sums[x]) > threshold) {
+                          marked[x - 1] = marked[x] = marked[x + 1] = 1;
+                        }
+                      }
+                    });
+  }
+}
 
 void StripeMask::prepare(int width, int height) {
   const int across = (width + 1) / 2;
@@ -101,6 +129,7 @@ void StripeMask::prepare(int width, int height) {
   upright_.resize(across, down);
   level_steps_.resize(down, across);
   level_.resize(down, across);
+  sample_.reserve(edges_.size());
   step_sums_.resize(static_cast<std::size_t>(std::max(across, down)));
   of_columns_.resize(static_cast<std::size_t>(across));
   of_rows_.resize(static_cast<std::size_t>(down));
@@ -159,8 +188,8 @@ void StripeMask::find_long(double sigma) {
           std::clamp(at[x + squares_.stride()] - at[x - squares_.stride()], -most, most);
     }
   }
-  mark_long(upright_steps_, deviation, step_sums_, upright_);
-  mark_long(level_steps_, deviation, step_sums_, level_);
+  mark_long(upright_steps_, deviation, upright_);
+  mark_long(level_steps_, deviation, level_);
 }
 
 void StripeMask::find(ImageView<const std::uint16_t> frame, std::span<const double> columns,

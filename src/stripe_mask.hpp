@@ -37,6 +37,8 @@ class StripeMask {
   void smooth();
 
   void find_long(double sigma);
+  void mark_long(ImageView<const std::int32_t> steps, double deviation,
+                 ImageView<std::uint8_t> marks);
 
   Image<std::int32_t> squares_, smoothed_;  // with a margin
   Image<std::uint8_t> edges_;
@@ -44,6 +46,7 @@ class StripeMask {
   Image<std::int32_t> upright_steps_, level_steps_;
   Image<std::uint8_t> upright_, level_;
   std::vector<std::int32_t> step_sums_;
+  std::vector<float> sample_;
   std::vector<std::int32_t> of_columns_, of_rows_;  // offsets of the squares
 };
 

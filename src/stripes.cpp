@@ -23,7 +23,7 @@ constexpr double kEdgeSigmas = 5;
 // Gradients, in units of what pixel noise makes of them, that are edges, in the rounds behind the
 // first, in which the stripes are still in the way.
 constexpr std::array kEdgeGradients = {5.0, 4.5};
-constexpr double kJumpZ = 4.5;  // of a lasting jump of the profile
+constexpr double kJumpZ = 6;  // of a lasting jump of the profile
 constexpr int kMostJumps = 24;
 constexpr std::array kJumpWindows = {5, 8, 12, 18, 26};
 constexpr int kShortestJumpSide = 3;  // samples on either side of a jump
@@ -36,6 +36,9 @@ constexpr double kStandOut = 1.5;
 constexpr double kNoPrior = 1e4;
 constexpr double kPrior = 2;
 constexpr double kUsualStripes = 1.0 / 3;
+// Of stripes beyond this many sigma so much is left before the last round that it looks like long
+// faint edges.
+constexpr double kStrong = 0.6;
 
 std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
@@ -51,6 +54,8 @@ class ColumnOffsets {
   [[nodiscard]] std::span<const double> offsets() const { return offsets_; }
   // The offsets, and the slope of the scene that goes on from side to side.
   [[nodiscard]] std::span<const double> background() const { return background_; }
+  // Of the stripes together with what pixel noise makes of them, sigma.
+  [[nodiscard]] double deviation() const { return deviation_; }
 
  private:
   struct Pair {
@@ -76,6 +81,7 @@ class ColumnOffsets {
   [[nodiscard]] double variance_of_noise();
   double white_deviation(std::span<const double> profile);
 
+  double deviation_ = 0;
   int columns_ = 0;
   int rows_ = 0;
   std::vector<Sum> sums_;                             // of each lag and column
@@ -317,7 +323,7 @@ bool ColumnOffsets::measure(ImageView<const std::uint16_t> counts,
     background_[index(x)] = x * slope.at(0.5 * x);  // its integral
   }
   solve(kNoPrior, {}, profile_);
-  const double deviation = white_deviation(profile_);
+  const double deviation = deviation_ = white_deviation(profile_);
   const double of_noise = variance_of_noise();
   if (deviation * deviation < kStandOut * of_noise) {
     return false;
@@ -393,8 +399,9 @@ void StripeFinder::measure(ImageView<const std::uint16_t> frame, double sigma_co
   fill_pixels(impl_->transposed_reach.view(), detail::StripeMask::kNoEdge);
   measure_both();
   for (const double gradient : kEdgeGradients) {
+    const bool weak = std::max(impl_->columns.deviation(), impl_->rows.deviation()) < kStrong;
     impl_->mask.find(frame, impl_->columns.background(), impl_->rows.background(), sigma_counts,
-                     gradient, gradient == kEdgeGradients.back());
+                     gradient, gradient == kEdgeGradients.back() && weak);
     impl_->mask.reach_right(impl_->reach);
     impl_->mask.reach_down(impl_->transposed_reach);
     measure_both();
