@@ -74,7 +74,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadConfig{"[denoise]\nmethod = \"magic\"\n",
                   "robot.toml: line 2: denoise.method = 'magic' is none of none, gaussian, nlm, "
                   "bm3d"},
-        BadConfig{"preset = \"magic\"\n", "robot.toml: preset = 'magic' is none of robust, fast, paper"},
+        BadConfig{"preset = \"magic\"\n",
+                  "robot.toml: preset = 'magic' is none of robust, fast, paper"},
         BadConfig{"canny = 3\n", "robot.toml: line 1: canny should be a table of options"}));
 
 TEST(Config, NamesTheLineOfWhatIsNotToml) {
