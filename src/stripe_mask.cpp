@@ -16,7 +16,7 @@ constexpr int kMargin = kRadius + 1;  // and one pixel for the gradient
 // Half the heights of the windows in which long edges show, squares; what they have to be over
 // noise; and the largest step that counts, so that a short strong edge is no long faint one.
 constexpr std::array kLongReach = {5, 13};
-constexpr double kLongZ = 2.8;
+constexpr double kLongZ = 2.5;
 constexpr double kMostStep = 2.5;
 constexpr int kUnit = 2;  // steps of a count, for the offsets
 
@@ -110,9 +110,9 @@ void StripeMask::mark_long(ImageView<const std::int32_t> steps, double deviation
                       const auto threshold =
                           static_cast<std::int32_t>(std::lround(kLongZ * usual * std::sqrt(rows)));
                       std::uint8_t* marked = marks.row(y);
-                      for (std::size_t x = 1; x + 1 < sums.size(); ++x) {
+                      for (std::size_t x = 0; x < sums.size(); ++x) {
                         if (std::abs(sums[x]) > threshold) {
-                          marked[x - 1] = marked[x] = marked[x + 1] = 1;
+                          marked[x] = 1;
                         }
                       }
                     });
@@ -124,12 +124,13 @@ void StripeMask::prepare(int width, int height) {
   const int down = (height + 1) / 2;
   squares_.resize(across + 2 * kMargin, down + 2 * kMargin);
   smoothed_.resize(squares_.width(), squares_.height());
-  edges_.resize(across, down);
+  upright_edges_.resize(across, down);
+  level_edges_.resize(down, across);
   upright_steps_.resize(across, down);
   upright_.resize(across, down);
   level_steps_.resize(down, across);
   level_.resize(down, across);
-  sample_.reserve(edges_.size());
+  sample_.reserve(upright_edges_.size());
   step_sums_.resize(static_cast<std::size_t>(std::max(across, down)));
   of_columns_.resize(static_cast<std::size_t>(across));
   of_rows_.resize(static_cast<std::size_t>(down));
@@ -140,7 +141,7 @@ void StripeMask::add_up(ImageView<const std::uint16_t> frame, std::span<const do
   add_pairs(columns, sigma, of_columns_);
   add_pairs(rows, sigma, of_rows_);
   const int last_x = frame.width() - 1;
-  for (int y = 0; y < edges_.height(); ++y) {
+  for (int y = 0; y < upright_edges_.height(); ++y) {
     const std::uint16_t* upper = frame.row(2 * y);
     const std::uint16_t* lower = frame.row(std::min(2 * y + 1, frame.height() - 1));
     std::int32_t* sums = squares_.row(y + kMargin) + kMargin;
@@ -180,9 +181,9 @@ void StripeMask::smooth() {
 void StripeMask::find_long(double sigma) {
   const double deviation = 2 * kUnit * std::numbers::sqrt2 * sigma;
   const auto most = static_cast<std::int32_t>(std::lround(kMostStep * deviation));
-  for (int y = 0; y < edges_.height(); ++y) {
+  for (int y = 0; y < upright_edges_.height(); ++y) {
     const std::int32_t* at = squares_.row(y + kMargin) + kMargin;
-    for (int x = 0; x < edges_.width(); ++x) {
+    for (int x = 0; x < upright_edges_.width(); ++x) {
       upright_steps_(x, y) = std::clamp(at[x + 1] - at[x - 1], -most, most);
       level_steps_(y, x) =
           std::clamp(at[x + squares_.stride()] - at[x - squares_.stride()], -most, most);
@@ -203,25 +204,27 @@ void StripeMask::find(ImageView<const std::uint16_t> frame, std::span<const doub
   }
   smooth();
   const double threshold = gradients * kNoiseGain * sigma;
-  const double squared_threshold = threshold * threshold;
-  for (int y = 0; y < edges_.height(); ++y) {
+  const auto is_edge = [=](double gradient) -> std::uint8_t {
+    return std::abs(gradient) > threshold ? 1 : 0;
+  };
+  for (int y = 0; y < upright_edges_.height(); ++y) {
     const std::int32_t* above = squares_.row(y + kMargin - 1) + kMargin;
     const std::int32_t* row = squares_.row(y + kMargin) + kMargin;
     const std::int32_t* below = squares_.row(y + kMargin + 1) + kMargin;
-    std::uint8_t* edges = edges_.row(y);
-    for (int x = 0; x < edges_.width(); ++x) {
+    for (int x = 0; x < upright_edges_.width(); ++x) {
       const double gx = (above[x + 1] - above[x - 1]) + 2 * (row[x + 1] - row[x - 1]) +
                         (below[x + 1] - below[x - 1]);
       const double gy =
           (below[x - 1] - above[x - 1]) + 2 * (below[x] - above[x]) + (below[x + 1] - above[x + 1]);
-      edges[x] = gx * gx + gy * gy > squared_threshold ? 1 : 0;
+      upright_edges_(x, y) = is_edge(gx);
+      level_edges_(y, x) = is_edge(gy);
     }
   }
 }
 
 void StripeMask::reach_right(ImageView<std::uint16_t> reach) const {
   for (int y = 0; y < reach.height(); ++y) {
-    const std::uint8_t* edges = edges_.row(y);
+    const std::uint8_t* edges = upright_edges_.row(y);
     std::uint16_t* row = reach.row(y);
     std::uint16_t distance = kNoEdge;
     for (int x = reach.width() - 1; x >= 0; --x) {
@@ -238,7 +241,7 @@ void StripeMask::reach_down(ImageView<std::uint16_t> reach) const {
     std::uint16_t* row = reach.row(x);
     std::uint16_t distance = kNoEdge;
     for (int y = reach.width() - 1; y >= 0; --y) {
-      distance = edges_(x, y / 2) != 0 || level_(y / 2, x) != 0
+      distance = level_edges_(y / 2, x) != 0 || level_(y / 2, x) != 0
                      ? 0
                      : static_cast<std::uint16_t>(distance + 1);
       row[y] = distance;

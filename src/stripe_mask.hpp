@@ -18,8 +18,9 @@ class StripeMask {
 
   void prepare(int width, int height);
 
-  // Edges are where the gradient of the frame less its offsets exceeds `gradients` times what pixel
-  // noise of `sigma` counts makes of it. Offsets in units of sigma. With `with_long` also those
+  // Edges are where the gradient across the columns (for reach_right) or across the rows (for
+  // reach_down) of the frame less its offsets exceeds `gradients` times what pixel noise of `sigma`
+  // counts makes of it. Offsets in units of sigma. With `with_long` also those
   // that show in means along the columns (for reach_right) or the rows (for reach_down) only.
   void find(ImageView<const std::uint16_t> frame, std::span<const double> columns,
             std::span<const double> rows, double sigma, double gradients, bool with_long);
@@ -41,7 +42,8 @@ class StripeMask {
                  ImageView<std::uint8_t> marks);
 
   Image<std::int32_t> squares_, smoothed_;  // with a margin
-  Image<std::uint8_t> edges_;
+  // Edges that change along a row; and along a column, of the transposed frame.
+  Image<std::uint8_t> upright_edges_, level_edges_;
   // Long edges along the columns, and along the rows of the transposed frame.
   Image<std::int32_t> upright_steps_, level_steps_;
   Image<std::uint8_t> upright_, level_;
