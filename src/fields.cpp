@@ -76,9 +76,8 @@ void draw_labels(const EdgeSet& edges, ImageView<std::uint16_t> labels) {
 }
 
 void draw_strength(const EdgeSet& edges, ImageView<std::uint8_t> strength) {
-  const auto last = std::max<std::int64_t>(static_cast<std::int64_t>(edges.edges.size()) - 1, 1);
-  draw(edges, edges.edges.size(), strength, [&](const Edge& edge) {
-    return static_cast<std::uint8_t>(255 - 254 * std::int64_t{edge.rank} / last);
+  draw(edges, edges.edges.size(), strength, [](const Edge& edge) {
+    return static_cast<std::uint8_t>(std::lround(1 + 254 * std::clamp(edge.strength, 0.0, 1.0)));
   });
 }
 

@@ -47,8 +47,10 @@ void EdgeSelector::reorder(EdgeSet& edges) {
   for (std::size_t i = 0; i < edges.edges.size(); ++i) {
     rank_of_[static_cast<std::size_t>(edges.edges[i].rank)] = static_cast<std::int32_t>(i);
   }
+  double strength = 1;  // of those before
   for (std::size_t i = 0; i < edges.edges.size(); ++i) {
     Edge& edge = edges.edges[i];
+    edge.strength = strength = std::min(edge.strength, strength);
     edge.id = edge.rank = static_cast<std::int32_t>(i);
     std::fill_n(edges.edgels.edge.begin() + edge.edgels.first, edge.edgels.count, edge.id);
     const auto connections = slice(edges.connections, edge.connections);

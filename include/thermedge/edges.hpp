@@ -43,6 +43,8 @@ struct Edge {
   std::int32_t rank = 0;  // 0 = best
   double score = 0;       // what edges are ranked by: ES, smaller is better; or, of edge pixels
                           // by oriented kernels, log(mean prominence) + .25 log N, larger is better
+  double strength = 0;    // 0..1, falls with the rank, for pictures. By the score, so that it means
+                          // the same in every frame; where ES ranks, evenly from 1 to 0
   double es = 0;          // edge score of the paper, eqs. 14-18
   double z = 0;           // contrast across the edge on the frame before denoising, in units of
                           // its standard deviation by noise alone

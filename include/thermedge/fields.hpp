@@ -20,7 +20,7 @@ void draw_mask(const EdgeSet& edges, ImageView<std::uint8_t> mask);
 // Edge id + 1 on kept edges, 0 elsewhere (ids beyond 65534 are drawn as 65535).
 void draw_labels(const EdgeSet& edges, ImageView<std::uint16_t> labels);
 
-// Rank of all edges, kept or not, mapped to 255 (best) .. 1 (last), 0 elsewhere.
+// Strength of all edges, kept or not, as 255 (1) .. 1 (0), 0 elsewhere.
 void draw_strength(const EdgeSet& edges, ImageView<std::uint8_t> strength);
 
 // What a binary map consists of: its edge pixels (nonzero) and the groups of them that touch each
