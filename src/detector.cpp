@@ -4,10 +4,12 @@
 #include <chrono>
 #include <limits>
 #include <new>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "thermedge/bridging.hpp"
 #include "thermedge/correction.hpp"
 #include "thermedge/measure.hpp"
 #include "thermedge/subpixel.hpp"
@@ -15,13 +17,15 @@
 namespace thermedge {
 namespace {
 
-// What the removal of stripes leaves of them, in units of the noise (docs/tuning.md).
+// What the removal of stripes leaves of them, in units of the noise (docs/tuning.md), and as a
+// share of strong ones: beside walls they cannot be told from the scene.
 constexpr double kStripesLeft = 0.08;
+constexpr double kShareLeft = 1.0 / 6;
 // Noise below this share of the frame's range is none.
 constexpr double kNoNoise = 0.002;
 // Noise of such shares of the range is next to no burden, and a full one.
-constexpr double kCleanNoise = 0.036;
-constexpr double kFullNoise = 0.05;
+constexpr double kCleanNoise = 0.005;
+constexpr double kFullNoise = 0.03;
 
 using Clock = std::chrono::steady_clock;
 
@@ -39,6 +43,21 @@ class Stopwatch {
   double& stage_ms_;
   Clock::time_point start_;
 };
+
+double root_mean_square(std::span<const float> values) {
+  double sum = 0;
+  for (const float value : values) {
+    sum += static_cast<double>(value) * value;
+  }
+  return values.empty() ? 0 : std::sqrt(sum / static_cast<double>(values.size()));
+}
+
+// Standard deviation of what is left of removed stripes, in units of the noise.
+double stripes_left(const StripeOffsets& removed, double sigma) {
+  const double strength =
+      std::max(root_mean_square(removed.columns), root_mean_square(removed.rows)) / sigma;
+  return strength > 0 ? std::max(kStripesLeft, kShareLeft * strength) : 0;
+}
 
 std::uint8_t to_level(float value) {
   return static_cast<std::uint8_t>(std::min(std::max(value, 0.0F), 255.0F) + 0.5F);
@@ -64,6 +83,7 @@ struct Detector::Impl {
         oriented(chosen.oriented),
         tracer(chosen.contours),
         graph(chosen.graph),
+        bridger(chosen.bridging),
         corner_finder(chosen.corners),
         linker(chosen.linking),
         scorer(chosen.scoring),
@@ -74,6 +94,7 @@ struct Detector::Impl {
   Status trace(ImageView<const std::uint8_t> edge_map);
 
   Status detect_oriented(int bits);
+  Status bridge();
   double range_of_counts();
   Status denoise_counts(int bits, double noisiness);
   void show_denoised();
@@ -95,6 +116,7 @@ struct Detector::Impl {
   OrientedEdges oriented;
   ContourTracer tracer;
   GraphTracer graph;
+  Bridger bridger;
   CornerFinder corner_finder;
   Linker linker;
   Scorer scorer;
@@ -107,6 +129,8 @@ struct Detector::Impl {
   OrientedResult oriented_found;      // views of what `oriented` holds
   std::vector<std::uint16_t> sample;  // of the counts
   ContourSet contours;
+  LinkedContours traced;             // by the graph, before bridging
+  std::vector<std::uint8_t> worthy;  // of its curves: to be bridged
   LinkedContours linked;
   CornerSet corners;
   Detection result;
@@ -153,7 +177,11 @@ Status Detector::Impl::detect_oriented(int bits) {
       })
       .and_then([&] {
         const Stopwatch watch(result.ms.contours);
-        return graph.run(oriented_found.edges, oriented_found.strength, linked);
+        return graph.run(oriented_found.edges, oriented_found.strength, traced);
+      })
+      .and_then([&] {
+        const Stopwatch watch(result.ms.linking);
+        return bridge();
       })
       .and_then([&] {
         const Stopwatch watch(result.ms.corners);
@@ -165,15 +193,26 @@ Status Detector::Impl::detect_oriented(int bits) {
       })
       .and_then([&] {
         const Stopwatch watch(result.ms.measure);
-        const bool striped = !result.stripes->columns.empty() || !result.stripes->rows.empty();
-        measure_edges(result.corrected, std::max(sigma, kNoNoise * range), oriented_found.direction,
-                      {striped ? kStripesLeft : 0}, result.edges);
+        measure_edges(result.corrected, result.sigma_counts, oriented_found.direction,
+                      {stripes_left(*result.stripes, sigma)}, result.edges);
         refine_positions(oriented_found.strength, oriented_found.kernel, sigma / unit,
                          result.edges);
         return selector.run(result.edges).map([&] {
           selector.keep_junctions(result.width, result.height, result.edges);
         });
       });
+}
+
+// What is too weak to be kept is not worth a bridge.
+Status Detector::Impl::bridge() {
+  worthy.reserve(traced.contours.contours.capacity());
+  worthy.clear();
+  for (const Contour& contour : traced.contours.contours) {
+    const double score =
+        prominence_score(traced.contours.pixels(contour), oriented_found.prominence);
+    worthy.push_back(score >= options.selection.min_score ? 1 : 0);
+  }
+  return bridger.run(traced, working, worthy, linked);
 }
 
 // From the 0.1st to the 99.9th percentile; every 16th pixel tells.
@@ -257,7 +296,7 @@ void Detector::Impl::begin(int width, int height) {
   result.edge_map = {};
   result.canny_low = 0;
   result.canny_high = 0;
-  result.contours = options.edges == EdgeMethod::kOriented ? &linked.contours : &contours;
+  result.contours = options.edges == EdgeMethod::kOriented ? &traced.contours : &contours;
   result.linked = &linked;
 }
 
@@ -327,7 +366,11 @@ Status Detector::Impl::connect() {
   const auto follow_graph = [&] {
     working.resize(result.width, result.height);
     fill_pixels(working.view(), 1.0F);  // all pixels are equally strong
-    return timed(ms.contours, [&] { return graph.run(result.edge_map, working, linked); });
+    return timed(ms.contours, [&] { return graph.run(result.edge_map, working, traced); })
+        .and_then([&] {
+          worthy.assign(traced.contours.contours.size(), 0);  // no frame tells what gaps hold
+          return bridger.run(traced, working, worthy, linked);
+        });
   };
   return (options.edges == EdgeMethod::kOriented ? follow_graph() : walk())
       .and_then([&] { return timed(ms.corners, [&] { return find_corners(); }); })

@@ -201,17 +201,16 @@ double alignment(const Edgels& edgels, Range range) {
   return std::sqrt(upright * upright + level * level) / range.count;
 }
 
-// log10 of P(|Z| > z) for a standard normal Z. Far out, where the probability itself would
-// underflow, by the asymptotic series erfc(x) = exp(-x^2) / (x sqrt(pi)) (1 - 1/(2 x^2) + 3/(4 x^4)
-// - ...).
-double log10_two_sided_tail(double z) {
+// log10 of P(Z > z) for a standard normal Z. Far out, where the probability itself would underflow,
+// by the asymptotic series erfc(x) = exp(-x^2) / (x sqrt(pi)) (1 - 1/(2 x^2) + 3/(4 x^4) - ...).
+double log10_tail(double z) {
   const double x = z / std::numbers::sqrt2;
   if (x < 10) {
-    return std::log10(std::erfc(x));
+    return std::log10(std::erfc(x) / 2);
   }
   const double inverse = 1 / (2 * x * x);
   const double series = 1 - inverse * (1 - 3 * inverse * (1 - 5 * inverse));
-  return std::log10(series * std::numbers::inv_sqrtpi / x) - x * x * std::numbers::log10e;
+  return std::log10(series * std::numbers::inv_sqrtpi / (2 * x)) - x * x * std::numbers::log10e;
 }
 
 double number_of_tests(const EdgeSet& edges) {
@@ -227,11 +226,26 @@ double number_of_tests(const EdgeSet& edges) {
 
 namespace {
 
+// What speaks for an edge: its contrast on the frame as it came, and its score, as far as a
+// denoiser can be trusted. On the edges that are found in noise it is a normal variable.
+struct Evidence {
+  double per_score;
+  double most_score;
+  double mean;
+  double deviation;
+
+  // In standard deviations.
+  [[nodiscard]] double of(const Edge& edge) const {
+    return (edge.z + per_score * std::min(edge.score, most_score) - mean) / deviation;
+  }
+};
+
 // The contrast is that from kNearestPx to `farthest_px` on both sides. significance(contrast, edge)
 // is the z of an edge; orient(edge) may turn normals round before.
-template <class Orient, class Significance>
+template <class Orient, class Significance, class Tail>
 void measure_all(ImageView<const std::uint16_t> frame, double sigma_counts, double tests,
-                 double farthest_px, EdgeSet& edges, Orient&& orient, Significance&& significance) {
+                 double farthest_px, EdgeSet& edges, Orient&& orient, Significance&& significance,
+                 Tail&& log10_p) {
   const double log10_tests = std::log10(tests);
   for (Edge& edge : edges.edges) {
     set_normals(edges.edgels, edge);
@@ -244,7 +258,7 @@ void measure_all(ImageView<const std::uint16_t> frame, double sigma_counts, doub
     measure_edgels(frame, sigma_counts, edge.edgels, edges.edgels);
     edge.contrast_counts = contrast.counts;
     edge.z = significance(contrast, edge);
-    edge.log10_nfa = log10_tests + log10_two_sided_tail(edge.z);
+    edge.log10_nfa = log10_tests + log10_p(edge);
   }
 }
 
@@ -254,15 +268,17 @@ void measure_edges(ImageView<const std::uint16_t> frame, double sigma_counts, Ed
   constexpr double kFarthestPx = 3.5;
   measure_all(
       frame, sigma_counts, number_of_tests(edges), kFarthestPx, edges, [](const Edge&) {},
-      [&](const Contrast& contrast, const Edge&) { return z_of(contrast, sigma_counts, 0); });
+      [&](const Contrast& contrast, const Edge&) { return z_of(contrast, sigma_counts, 0); },
+      [](const Edge& edge) { return std::log10(2.0) + log10_tail(edge.z); });
 }
 
 void measure_edges(ImageView<const std::uint16_t> frame, double sigma_counts,
                    ImageView<const std::int32_t> direction, const SignificanceOptions& options,
                    EdgeSet& edges) {
-  constexpr double kPixelsPerTest = 4096;
-  constexpr double kFarthestPx = 5.5;
-  const double tests = std::max(static_cast<double>(frame.size()) / kPixelsPerTest, 1.0);
+  constexpr double kPixelsPerCandidate = 55000;
+  constexpr Evidence kEvidence{1.6, 0.5, 1.3, 1.3};
+  constexpr double kFarthestPx = 4.5;
+  const double candidates = static_cast<double>(frame.size()) / kPixelsPerCandidate;
   Edgels& edgels = edges.edgels;
   const auto orient = [&](const Edge& edge) {
     for (std::size_t i = edge.edgels.first; i < edge.edgels.first + edge.edgels.count; ++i) {
@@ -275,12 +291,16 @@ void measure_edges(ImageView<const std::uint16_t> frame, double sigma_counts,
     }
   };
   const auto significance = [&](Contrast contrast, const Edge& edge) {
+    if (sigma_counts == 0) {
+      return z_of(contrast, 0, 0);
+    }
     const double slope = contrast_of_slope(frame, edgels, edge.edgels, kFarthestPx);
     contrast.counts = std::clamp(contrast.counts - slope, 0.0, contrast.counts);
     const double stripes = options.stripe_sigmas * alignment(edgels, edge.edgels);
     return z_of(contrast, sigma_counts, stripes * stripes);
   };
-  measure_all(frame, sigma_counts, tests, kFarthestPx, edges, orient, significance);
+  measure_all(frame, sigma_counts, candidates, kFarthestPx, edges, orient, significance,
+              [&](const Edge& edge) { return log10_tail(kEvidence.of(edge)); });
 }
 
 void set_normals_from_shape(EdgeSet& edges) {

@@ -37,7 +37,7 @@ DenoiseOptions robust_denoise() {
 SelectionOptions robust_selection() {
   SelectionOptions options;
   options.keep_edges = 0;
-  options.min_score = 0.4;
+  options.min_score = -0.6;
   options.max_false_alarms = 0.1;
   return options;
 }

@@ -437,6 +437,7 @@ void OrientedEdges::Impl::suppress(int y_begin, int y_end) {
   }
   for (int y = y_begin; y < y_end; ++y) {
     std::fill_n(edges.row(y), width, detail::kNoEdge);
+    std::fill_n(prominence.row(y), width, 0.0F);
     if (y == 0 || y == height - 1) {
       continue;
     }

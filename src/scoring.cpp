@@ -77,6 +77,19 @@ double edge_score(const EdgeScoreTerms& terms) {
          (terms.points * terms.points * terms.connected_points * terms.loop_line_ratio);
 }
 
+double prominence_score(std::span<const Pixel> pixels, ImageView<const float> prominence) {
+  constexpr double kLeastMean = 0.02;  // so that the logarithm is finite
+  double sum = 0;
+  int count = 0;
+  for (const Pixel pixel : pixels) {
+    const double value = prominence(pixel.x, pixel.y);
+    sum += std::max(value, 0.0);
+    count += value > 0 ? 1 : 0;
+  }
+  return std::log(std::max(sum / std::max(count, 1), kLeastMean)) +
+         0.25 * std::log(static_cast<double>(pixels.size()));
+}
+
 Status Scorer::run(const LinkedContours& linked, const CornerSet& corners, int width, int height,
                    EdgeSet& edges) {
   return score_contours(linked, corners, width, height, edges).map([&] {
@@ -86,25 +99,23 @@ Status Scorer::run(const LinkedContours& linked, const CornerSet& corners, int w
 
 Status Scorer::run(const LinkedContours& linked, const CornerSet& corners,
                    ImageView<const float> prominence, EdgeSet& edges) {
+  // Scores between which strength rises: hardly there, and a wall at a hundred times the noise.
+  constexpr double kFaintest = -1.5;
+  constexpr double kStrongest = 4.5;
   return score_contours(linked, corners, prominence.width(), prominence.height(), edges).map([&] {
     score_by_prominence(linked.contours, prominence);
     fill(linked, corners, edges);
     for (Edge& edge : edges.edges) {
       edge.score = -edge.score;
+      edge.strength = std::clamp((edge.score - kFaintest) / (kStrongest - kFaintest), 0.0, 1.0);
     }
   });
 }
 
 void Scorer::score_by_prominence(const ContourSet& contours, ImageView<const float> prominence) {
-  constexpr double kLeastMean = 0.02;  // so that the logarithm is finite
   for (Ranked& ranked : order_) {
-    const auto pixels = contours.pixels(contours.contours[ranked.contour]);
-    double sum = 0;
-    for (const Pixel pixel : pixels) {
-      sum += static_cast<double>(prominence(pixel.x, pixel.y));
-    }
-    const auto count = static_cast<double>(pixels.size());
-    ranked.badness = -std::log(std::max(sum / count, kLeastMean)) - 0.25 * std::log(count);
+    ranked.badness =
+        -prominence_score(contours.pixels(contours.contours[ranked.contour]), prominence);
   }
 }
 
@@ -195,6 +206,8 @@ void Scorer::append_edge(const LinkedContours& linked, const CornerSet& corners,
   Edge edge;
   edge.id = edge.rank = static_cast<std::int32_t>(rank);
   edge.score = ranked.badness;
+  edge.strength =
+      1 - static_cast<double>(rank) / std::max(static_cast<double>(order_.size()) - 1, 1.0);
   edge.es = ranked.es;
   edge.length_px = arc_length(pixels, contour.closed);
   edge.closed = contour.closed;

@@ -14,7 +14,7 @@
 namespace thermedge {
 
 struct GraphOptions {
-  int min_length_px = 12;         // shortest curve kept, points
+  int min_length_px = 8;          // shortest curve kept, points
   double max_turn_deg = 52;       // sharper turns at a junction are ends, 0..180
   double closed_gap_px = 3;       // a curve whose ends are nearer than this is closed ...
   double closed_length_gaps = 4;  // ... where it is so many gaps long

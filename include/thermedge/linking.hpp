@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "thermedge/contours.hpp"
+#include "thermedge/curve_chains.hpp"
 #include "thermedge/result.hpp"
 
 namespace thermedge {
@@ -53,13 +54,6 @@ class Linker {
                            LinkedContours& linked);
 
  private:
-  // Ends are numbered: 2 i is the first point of contour i, 2 i + 1 the last one.
-  struct EndState {
-    std::int32_t partner;  // the end that it was joined to, or one of the states in linking.cpp
-    std::int32_t far;      // where a chain of curves ends here: the chain's other end
-    std::int32_t next;     // the next end at the same pixel, -1: none
-  };
-
   void prepare(const ContourSet& contours, int width, int height, LinkedContours& linked);
   void place_ends(const ContourSet& contours);
   void join_ends(const ContourSet& contours, LinkedContours& linked);
@@ -67,17 +61,15 @@ class Linker {
                                            std::int32_t other_than) const;
   void join(const ContourSet& contours, std::int32_t a, std::int32_t b, LinkedContours& linked);
   void assemble(const ContourSet& contours, LinkedContours& linked);
-  [[nodiscard]] std::int32_t chain_start(std::int32_t end) const;
-  void append_chain(const ContourSet& contours, std::int32_t start, LinkedContours& linked);
   void paint_owners(const ContourSet& contours, const LinkedContours& linked);
   void connect_free_ends(const ContourSet& contours, LinkedContours& linked) const;
 
   LinkingOptions options_;
   std::vector<Pixel> offsets_;  // under gap_px, nearest first
-  std::vector<EndState> ends_;
-  std::vector<std::int32_t> linked_as_;  // contour in the linked set that a contour became part of
-  Image<std::int32_t> end_at_;           // first of the ends at each pixel, -1: none
-  Image<std::int32_t> owner_;            // linked contour of each pixel, -1: none
+  detail::CurveChains chains_;
+  std::vector<std::int32_t> next_at_pixel_;  // of each end: the next end at the same pixel
+  Image<std::int32_t> end_at_;               // first of the ends at each pixel, -1: none
+  Image<std::int32_t> owner_;                // linked contour of each pixel, -1: none
 };
 
 }  // namespace thermedge

@@ -11,6 +11,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "thermedge/bridging.hpp"
 #include "thermedge/canny.hpp"
 #include "thermedge/contours.hpp"
 #include "thermedge/corners.hpp"
@@ -58,6 +59,7 @@ struct DetectorOptions {
   OrientedOptions oriented;
   ContourOptions contours;
   GraphOptions graph;
+  BridgingOptions bridging;
   CornerOptions corners;
   LinkingOptions linking;
   ScoringOptions scoring;
@@ -209,6 +211,14 @@ void visit_options(O& o, V&& v) {
   v("closed_length_gaps", o.closed_length_gaps, Bounds{0, 1000}, "... that is so many gaps long");
 }
 
+template <OptionsOf<BridgingOptions> O, class V>
+void visit_options(O& o, V&& v) {
+  v("gap_px", o.gap_px, Bounds{0, 32}, "curves are carried on over gaps up to this, px (0: none)");
+  v("max_turn_deg", o.max_turn_deg, Bounds{0, 90}, "sharpest turn into a bridge, degrees");
+  v("least_contrast", o.least_contrast, Bounds{0, 1},
+    "contrast across a bridge, as a share of that across the end before it");
+}
+
 template <OptionsOf<CornerOptions> O, class V>
 void visit_options(O& o, V&& v) {
   v("sigma_px", o.sigma_px, Bounds{0.5, 10}, "smoothing of the curve before curvature, px");
@@ -252,6 +262,7 @@ void visit_options(O& o, V&& v) {
   v.group("oriented", o.oriented);
   v.group("contours", o.contours);
   v.group("graph", o.graph);
+  v.group("bridging", o.bridging);
   v.group("corners", o.corners);
   v.group("linking", o.linking);
   v.group("scoring", o.scoring);

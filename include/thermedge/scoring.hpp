@@ -37,6 +37,10 @@ struct EdgeScoreTerms {
 // ES = AR W L M^2 / (N^2 N' Phi) (eq. 18): smaller is smoother, longer, better connected.
 [[nodiscard]] double edge_score(const EdgeScoreTerms& terms);
 
+// log(mean prominence) + 0.25 log N of a curve, the mean over the pixels that have one (above 0).
+[[nodiscard]] double prominence_score(std::span<const Pixel> pixels,
+                                      ImageView<const float> prominence);
+
 // Scores and ranks: fills `edges` from linked contours and their corners, best first. Ties: the
 // edge with more points, then the earlier contour. The id of an edge is its rank. Everything but
 // the measured fields (normals, magnitude, contrast, z, NFA; measure.hpp) and what is kept

@@ -118,7 +118,8 @@ TEST(Setting, RefusesWhatIsNotAnOption) {
   EXPECT_EQ(setting_error("contours.gap_px"), "'contours.gap_px' should read stage.option=value");
   EXPECT_EQ(setting_error("magic=1"), "unknown option 'magic'; --dump-config lists all options");
   EXPECT_EQ(setting_error("link.gap_px=1"),
-            "unknown option 'link.gap_px'; did you mean contours.gap_px, linking.gap_px?");
+            "unknown option 'link.gap_px'; did you mean contours.gap_px, bridging.gap_px, "
+            "linking.gap_px?");
   EXPECT_EQ(setting_error("contours.gap_px=two"), "contours.gap_px = two should be a whole number");
   EXPECT_EQ(setting_error("contours.gap_px=2x"), "contours.gap_px = 2x should be a whole number");
   EXPECT_EQ(setting_error("linking.gap_px=33"), "linking.gap_px = 33 is out of range: 0 to 32");
