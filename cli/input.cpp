@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <filesystem>
 #include <utility>
 
 #include "thermedge/sim/scene.hpp"
@@ -13,23 +14,27 @@ constexpr std::string_view kSimPrefix = "sim:";
 
 class SimSource final : public io::FrameSource {
  public:
-  SimSource(std::string spec, sim::SceneOptions options)
-      : spec_(std::move(spec)), options_(std::move(options)) {}
+  SimSource(std::string spec, sim::Renderer renderer)
+      : spec_(std::move(spec)),
+        stem_(std::filesystem::path(renderer.options().name).stem().string()),
+        frames_(renderer.options().frames),
+        renderer_(std::move(renderer)),
+        runner_(make_runner(0)) {}
 
   Result<bool> next(io::Frame& frame) override {
-    if (index_ >= options_.frames) {
+    if (index_ >= frames_) {
       return false;
     }
-    auto rendered = sim::render(options_, index_);
+    auto rendered = renderer_.render(index_, *runner_);
     if (!rendered) {
-      index_ = options_.frames;
+      index_ = frames_;
       return tl::unexpected(rendered.error());
     }
     frame.counts = std::move(rendered->counts);
     frame.bits = 16;
     frame.source = spec_;
-    frame.stem = options_.name;
-    if (options_.frames > 1) {
+    frame.stem = stem_;
+    if (frames_ > 1) {
       frame.source += fmt::format("[{}]", index_);
       frame.stem += fmt::format("_{:04}", index_);
     }
@@ -37,13 +42,14 @@ class SimSource final : public io::FrameSource {
     return true;
   }
 
-  [[nodiscard]] std::size_t size_hint() const override {
-    return static_cast<std::size_t>(options_.frames);
-  }
+  [[nodiscard]] std::size_t size_hint() const override { return static_cast<std::size_t>(frames_); }
 
  private:
   std::string spec_;
-  sim::SceneOptions options_;
+  std::string stem_;
+  int frames_;
+  sim::Renderer renderer_;
+  std::unique_ptr<Runner> runner_;
   int index_ = 0;
 };
 
@@ -52,8 +58,9 @@ Result<std::unique_ptr<io::FrameSource>> open_one(const std::string& input,
   if (!input.starts_with(kSimPrefix)) {
     return io::open_files({input}, options);
   }
-  return sim::parse_scene(input).map([&](sim::SceneOptions scene) {
-    return std::unique_ptr<io::FrameSource>(std::make_unique<SimSource>(input, std::move(scene)));
+  return sim::parse_scene(input).and_then(sim::Renderer::create).map([&](sim::Renderer renderer) {
+    return std::unique_ptr<io::FrameSource>(
+        std::make_unique<SimSource>(input, std::move(renderer)));
   });
 }
 

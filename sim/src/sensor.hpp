@@ -1,15 +1,47 @@
-// What the sensor adds to a clean picture.
+// What the sensor adds to a clean picture, and when its shutter falls.
 #pragma once
 
 #include <cstdint>
+#include <optional>
+#include <vector>
 
 #include "thermedge/image.hpp"
+#include "thermedge/parallel.hpp"
 #include "thermedge/sim/scene.hpp"
 
 namespace thermedge::sim {
 
-// Temporal noise, fixed column and row pattern, dead pixels, rounding to 14 bits.
-[[nodiscard]] Image<std::uint16_t> expose(ImageView<const float> clean, const CameraOptions& camera,
-                                          std::uint64_t seed, int frame);
+inline constexpr std::uint16_t kLargestCount = 16383;  // 14 bits
+
+// Nothing in frames that the shutter didn't touch.
+[[nodiscard]] std::optional<ShutterState> shutter_at(const CameraOptions& camera,
+                                                     std::uint64_t seed, int frame);
+
+// Noise and pattern of one camera.
+class Sensor {
+ public:
+  Sensor(const CameraOptions& camera, std::uint64_t seed);
+
+  // Counts of frame `frame`, which is not frozen: gains, fixed pattern, temporal noise, jumps of
+  // the shutter, flickering and dead pixels, rounded to 14 bits and cut off at their ends.
+  void expose(ImageView<const float> clean, int frame, ImageView<std::uint16_t> counts,
+              Runner& runner);
+
+ private:
+  // One kind of fixed pattern, e.g. the columns' offsets: normal numbers that turn into others.
+  struct Pattern {
+    std::uint64_t stream;
+    double sigma;
+    std::size_t size;
+    std::vector<double> values;
+  };
+  void update(Pattern& pattern, int frame) const;
+  void flicker(int frame, ImageView<std::uint16_t> counts) const;
+
+  CameraOptions camera_;
+  std::uint64_t seed_;
+  Pattern columns_, rows_, offsets_, gains_;
+  int pattern_frame_ = -1;
+};
 
 }  // namespace thermedge::sim

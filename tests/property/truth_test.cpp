@@ -105,10 +105,10 @@ TEST_P(TrueEdges, AreFoundAndFewOthers) {
 
 INSTANTIATE_TEST_SUITE_P(
     All, TrueEdges,
-    testing::Values(Scene{"desk_sigma6", "sim:desk?sigma=6", {0.95, 0.93}},
-                    Scene{"desk_sigma20", "sim:desk?sigma=20", {0.93, 0.85}},
-                    Scene{"corridor_sigma6", "sim:corridor?sigma=6", {0.88, 0.9}},
-                    Scene{"corridor_sigma20", "sim:corridor?sigma=20", {0.88, 0.85}}),
+    testing::Values(Scene{"desk_sigma6", "sim:desk?sigma=6", {0.9, 0.98}},
+                    Scene{"desk_sigma20", "sim:desk?sigma=20", {0.88, 0.97}},
+                    Scene{"corridor_sigma6", "sim:corridor?sigma=6", {0.96, 0.98}},
+                    Scene{"corridor_sigma20", "sim:corridor?sigma=20", {0.96, 0.98}}),
     [](const auto& scene) { return scene.param.name; });
 
 }  // namespace

@@ -1,6 +1,8 @@
 // Simulated recordings with a planted sensor: what a probe has to find again.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -9,29 +11,34 @@
 #include <vector>
 
 #include "support/images.hpp"
+#include "thermedge/parallel.hpp"
 #include "thermedge/sim/scene.hpp"
 
 namespace thermedge::test {
 
-// The frames of a scene of the simulator, e.g. "sim:desk?frames=8&sigma=6".
-inline std::vector<Image<std::uint16_t>> scene_frames(const std::string& spec) {
-  const auto options = sim::parse_scene(spec);
-  std::vector<Image<std::uint16_t>> frames;
-  for (int i = 0; options && i < options->frames; ++i) {
-    auto frame = sim::render(*options, i);
-    frames.push_back(std::move(frame->counts));
+// Calls `take(frame)` for the frames of a scene of the simulator, e.g. "sim:desk?frames=8&sigma=6".
+template <class F>
+void for_each_frame(const std::string& spec, F&& take) {
+  auto renderer = sim::parse_scene(spec).and_then(sim::Renderer::create);
+  ASSERT_TRUE(renderer) << renderer.error().message;
+  const auto runner = make_runner(0);
+  for (int i = 0; i < renderer->options().frames; ++i) {
+    auto frame = renderer->render(i, *runner);
+    ASSERT_TRUE(frame) << frame.error().message;
+    take(std::move(*frame));
   }
+}
+
+inline std::vector<Image<std::uint16_t>> scene_frames(const std::string& spec) {
+  std::vector<Image<std::uint16_t>> frames;
+  for_each_frame(spec, [&](sim::TrueFrame frame) { frames.push_back(std::move(frame.counts)); });
   return frames;
 }
 
 // A moving scene without noise, to which `add_noise` adds what a sensor does.
 inline std::vector<Image<float>> clean_frames(const std::string& spec) {
-  const auto options = sim::parse_scene(spec);
   std::vector<Image<float>> frames;
-  for (int i = 0; options && i < options->frames; ++i) {
-    auto frame = sim::render(*options, i);
-    frames.push_back(std::move(frame->clean));
-  }
+  for_each_frame(spec, [&](sim::TrueFrame frame) { frames.push_back(std::move(frame.clean)); });
   return frames;
 }
 

@@ -352,7 +352,7 @@ TEST(ComparisonSheet, HoldsTheMapsOfEachDetector) {
 }
 
 TEST(ComparisonSheet, DenoisesInFrontOfTheClassicalDetectors) {
-  const auto noisy = sim::render({.camera = {.width = 160, .height = 120, .sigma_counts = 25}}, 0);
+  const auto noisy = sim::render({.camera = {.width = 160, .height = 120, .sigma_counts = 60}}, 0);
   ASSERT_TRUE(noisy);
   std::size_t fragments[2] = {};
   for (const auto method : {DenoiseMethod::kNone, DenoiseMethod::kNlm}) {

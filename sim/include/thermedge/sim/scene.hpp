@@ -1,33 +1,59 @@
-// Small thermal scenes with known edges: what demo and tests run on.
+// Thermal scenes as a camera sees them, with their true edges: what demo, tests and benchmarks run
+// on. The worlds themselves are in world.hpp.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "thermedge/image.hpp"
+#include "thermedge/parallel.hpp"
 #include "thermedge/result.hpp"
+#include "thermedge/sim/world.hpp"
 
 namespace thermedge::sim {
 
-// What the sensor does to the picture. All noise is seeded; fixed pattern and dead pixels stay the
-// same over a sequence.
+// Lens and sensor. All noise is seeded. The defaults are a plain camera of the PI450's size and
+// noise, without the per-pixel pattern and the events of real ones; camera_preset() has those.
 struct CameraOptions {
-  int width = 382;                   // px, 16..4096
-  int height = 288;                  // px, 16..4096
-  double blur_px = 1.0;              // standard deviation of the optical blur, px, 0..20
-  double sigma_counts = 5.8;         // temporal noise of a pixel, counts, 0..5000
+  int width = 382;        // px, 16..4096
+  int height = 288;       // px, 16..4096
+  double rate_hz = 80;    // frames a second, 0.1..1000
+  double fov_deg = 53;    // from the left to the right border, without distortion, 5..120
+  double k1 = 0;          // Brown's radial distortion, -0.3..0.3: r -> r (1 + k1 r^2 + k2 r^4) with
+  double k2 = 0;          // r = tangent of the angle to the axis; -0.3..0.3
+  double blur_px = 1.0;   // Gaussian optics: standard deviation, px, 0..20
+  double airy_px = 0;     // diffraction: radius of the first dark ring, px, 0..8; 0: none
+  double vignetting = 0;  // share of the light that the corner loses to the housing, 0..0.9
+
+  double sigma_counts = 5.8;         // temporal noise of a pixel (NETD), counts, 0..5000
+  double pixel_sigma_counts = 0;     // fixed offsets of the pixels, counts, 0..5000
+  double gain_sigma = 0;             // fixed gains of the pixels, share, 0..0.5
   double column_sigma_counts = 1.2;  // fixed column pattern, counts, 0..5000
   double row_sigma_counts = 0.9;     // fixed row pattern, counts, 0..5000
+  double drift_s = 0;                // time in which a fixed pattern turns into another, s, 0..1e6;
+                                     // 0: it stays
   int dead_pixels = 5;               // stuck at 0 or at the largest count, 0..10000
+  int flickering_pixels = 0;         // at random off by 10 to 40 sigma, 0..10000
+
+  int shutter_every = 0;           // frames from one shutter event to the next, 0..1e6; 0: none
+  int shutter_frames = 24;         // length of the freeze, frames, 1..1e6
+  double shutter_jump_counts = 8;  // standard deviation of the jump behind it, counts, 0..5000
 };
 
+enum class PathKind { kHand, kDrive, kPan, kStill };
+
 struct SceneOptions {
-  std::string name = "desk";  // "desk" (monitor, laptop, mug, phone, charger), "corridor" (walls,
-                              // doors, pipes, lamps)
-  std::uint64_t seed = 1;     // noise, fixed pattern and small variations of the objects, 0..9e15
-  int frames = 1;             // 1..1e6; the camera moves by hand from frame to frame, a few px
+  std::string name = "desk";  // a name of scene_names(), or a file that ends in .toml
+  std::uint64_t seed = 1;     // noise, pattern, path, and what the scene lets vary, 0..9e15
+  int frames = 1;             // 1..1e6
+  PathKind path = PathKind::kHand;
+  double least_contrast_counts = 10;  // smaller steps are no edges, counts, 0..5000
+  bool depth = false;                 // render TrueFrame::depth_mm
   CameraOptions camera;
 };
 
@@ -35,29 +61,93 @@ struct Point {
   double x = 0, y = 0;  // px, pixel centres at integers
 };
 
-// A visible piece of an outline, exact to the sub-pixel, with the step across it.
+enum class EdgeKind {
+  kOccluding,  // the outline of something nearer
+  kMaterial,   // two temperatures or emissivities on one face
+  kCrease,     // two faces that touch
+};
+
+// A visible piece of an edge, exact to the sub-pixel, with the step across it.
 struct TrueEdge {
   std::vector<Point> points;  // at most 0.5 px apart
   bool closed = false;
   double contrast_counts = 0;  // mean absolute step across the edge, counts
-  int object = 0;              // whose outline it is; the same over a sequence
+  int object = 0;              // whose edge it is; the same over a sequence
+  int id = 0;  // which edge of the world it is; the same over a sequence, and for all its pieces
+  EdgeKind kind = EdgeKind::kOccluding;
+};
+
+// Of the camera in the world, as OpenCV has it: x right, y down, z forward.
+struct Pose {
+  Vec3 position_m;
+  std::array<double, 4> orientation_xyzw{0, 0, 0, 1};  // turns camera axes into those of the world
+};
+
+// u = cx + fx x (1 + k1 r^2 + k2 r^4) with x = X / Z, r^2 = x^2 + y^2; v likewise.
+struct Intrinsics {
+  int width = 0, height = 0;
+  double fx_px = 0, fy_px = 0, cx_px = 0, cy_px = 0, k1 = 0, k2 = 0;
+};
+
+// What the shutter did to a frame. Truth is of the frame's own time; a frozen picture is not.
+struct ShutterState {
+  bool frozen = false;     // the picture is that of frame `shows_frame`
+  int shows_frame = 0;     // the frame itself where not frozen
+  double jump_counts = 0;  // offset since the event before this frame, relative to before it
 };
 
 struct TrueFrame {
+  int index = 0;
+  std::int64_t stamp_ns = 0;
   Image<std::uint16_t> counts;  // as the camera gives them
   Image<float> clean;           // without noise, pattern and dead pixels, counts
   std::vector<TrueEdge> edges;
+  Image<std::uint16_t> depth_mm;  // along the optical axis, mm; 0: sky; 65535: that far or farther
+  Pose pose;
+  Intrinsics intrinsics;
+  std::optional<ShutterState> shutter;  // in frozen frames and in the first frame behind
 };
 
-// Parses "sim:NAME[?key=value&...]" with the keys seed, frames, sigma, column_sigma, row_sigma,
-// blur, width, height, dead_pixels. Errors name the key and list what is known.
+// Renders the frames of one scene. Keeps what frames have in common, and scratch memory.
+// One caller at a time.
+class Renderer {
+ public:
+  // Errors: unknown scene, a scene file that is wrong, an option out of range.
+  [[nodiscard]] static Result<Renderer> create(const SceneOptions& options);
+  Renderer(Renderer&&) noexcept;
+  Renderer& operator=(Renderer&&) noexcept;
+  ~Renderer();
+
+  // Frame `index` (0 .. frames - 1), in any order. The same options and index give the same bits on
+  // every machine and for every runner. Error: no such frame.
+  [[nodiscard]] Result<TrueFrame> render(int index, Runner& runner);
+  [[nodiscard]] const SceneOptions& options() const;
+
+ private:
+  class Impl;
+  explicit Renderer(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+// One frame on one thread, in the easy case. Thread-safe.
+[[nodiscard]] Result<TrueFrame> render(const SceneOptions& options, int index);
+
+// Parses "sim:NAME[?key=value&...]": NAME as SceneOptions::name; keys camera (a name of
+// camera_names(), applied first), path (hand, drive, pan, still), seed, frames, netd_mk, and the
+// fields of CameraOptions without their units. Errors name the key and list what is known.
 [[nodiscard]] Result<SceneOptions> parse_scene(std::string_view spec);
 
-// Names of the scenes.
-[[nodiscard]] std::vector<std::string> scene_names();
+// Sets one of these keys from text, e.g. ("netd_mk", "60"). Errors name the key.
+[[nodiscard]] Status set_scene_key(std::string_view key, std::string_view value,
+                                   SceneOptions& options);
 
-// Renders frame `index` (0 .. frames - 1). The same options and index give the same bits on every
-// machine. Errors: unknown name, an option out of range. Thread-safe.
-[[nodiscard]] Result<TrueFrame> render(const SceneOptions& options, int index);
+// Names of the built-in scenes, and of the cameras.
+[[nodiscard]] std::vector<std::string> scene_names();
+[[nodiscard]] std::vector<std::string> camera_names();
+
+// pi450 (Optris PI450: 382x288, 80 Hz; noise as measured on recordings, 46 mK over time, where the
+// data sheet says 40), boson (FLIR Boson: 640x512, 60 Hz, 50 mK), lepton35 (FLIR Lepton 3.5:
+// 160x120, 8.7 Hz, 50 mK). Error: none of these.
+[[nodiscard]] Result<CameraOptions> camera_preset(std::string_view name);
 
 }  // namespace thermedge::sim

@@ -1,0 +1,118 @@
+#include <cmath>
+
+#include "imager.hpp"
+#include "path.hpp"
+#include "scene_keys.hpp"
+#include "sensor.hpp"
+#include "truth.hpp"
+
+namespace thermedge::sim {
+namespace {
+
+Result<World> find_world(const SceneOptions& options) {
+  if (is_scene_file(options.name)) {
+    return load_world(options.name, options.seed);
+  }
+  return parse_world(*built_in_scene(options.name), "sim:" + options.name, options.seed);
+}
+
+// Brown's polynomial must grow as far as the picture reaches, or two rays would meet one pixel.
+Status check_lens(const SceneOptions& options, const Lens& lens) {
+  const Intrinsics& i = lens.intrinsics();
+  const double corner = lens.reach().x * lens.reach().x + lens.reach().y * lens.reach().y;
+  const double slope = 1 + corner * (3 * i.k1 + 5 * corner * i.k2);
+  const Point back = lens.pixel(lens.ray({-0.5, -0.5}));
+  if (slope > 0.05 && std::abs(back.x + 0.5) < 1e-6 && std::abs(back.y + 0.5) < 1e-6) {
+    return {};
+  }
+  return failure(
+      ErrorCode::kInvalidArgument,
+      "sim:" + options.name + ": k1 and k2 bend rays back at this fov; both should be nearer to 0");
+}
+
+}  // namespace
+
+class Renderer::Impl {
+ public:
+  Impl(SceneOptions options, World world)
+      : options_(std::move(options)),
+        world_(std::move(world)),
+        facets_(take_apart(world_)),
+        lens_(intrinsics_of(options_.camera)),
+        imager_(lens_, options_.camera),
+        caster_(world_, facets_, lens_, imager_.margin_px()),
+        sensor_(options_.camera, options_.seed) {}
+
+  [[nodiscard]] const SceneOptions& options() const { return options_; }
+
+  TrueFrame render(int index, Runner& runner) {
+    const CameraOptions& camera = options_.camera;
+    TrueFrame frame;
+    frame.index = index;
+    frame.stamp_ns = std::llround(index * 1e9 / camera.rate_hz);
+    frame.shutter = shutter_at(camera, options_.seed, index);
+    frame.intrinsics = lens_.intrinsics();
+    frame.counts.resize(camera.width, camera.height);
+    frame.clean.resize(camera.width, camera.height);
+    const int shown = frame.shutter ? frame.shutter->shows_frame : index;
+    if (shown != index) {
+      caster_.look(pose_at(world_.view, options_, shown), runner);
+      imager_.run(caster_, frame.clean, runner);
+      sensor_.expose(frame.clean, shown, frame.counts, runner);
+    }
+    frame.pose = pose_at(world_.view, options_, index);
+    caster_.look(frame.pose, runner);
+    imager_.run(caster_, frame.clean, runner);
+    if (shown == index) {
+      sensor_.expose(frame.clean, index, frame.counts, runner);
+    }
+    frame.edges = true_edges(caster_, options_.least_contrast_counts, camera.vignetting, runner);
+    if (options_.depth) {
+      frame.depth_mm.resize(camera.width, camera.height);
+      render_depth(caster_, frame.depth_mm, runner);
+    }
+    return frame;
+  }
+
+ private:
+  SceneOptions options_;
+  World world_;
+  Facets facets_;
+  Lens lens_;
+  Imager imager_;
+  Caster caster_;
+  Sensor sensor_;
+};
+
+Renderer::Renderer(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+Renderer::Renderer(Renderer&&) noexcept = default;
+Renderer& Renderer::operator=(Renderer&&) noexcept = default;
+Renderer::~Renderer() = default;
+
+const SceneOptions& Renderer::options() const { return impl_->options(); }
+
+Result<Renderer> Renderer::create(const SceneOptions& options) {
+  return check(options)
+      .and_then([&] { return check_lens(options, Lens(intrinsics_of(options.camera))); })
+      .and_then([&] { return find_world(options); })
+      .map(
+          [&](World world) { return Renderer(std::make_unique<Impl>(options, std::move(world))); });
+}
+
+Result<TrueFrame> Renderer::render(int index, Runner& runner) {
+  if (index < 0 || index >= options().frames) {
+    return failure(ErrorCode::kInvalidArgument, "sim:" + options().name + ": there is no frame " +
+                                                    std::to_string(index) + "; frames are 0 to " +
+                                                    std::to_string(options().frames - 1));
+  }
+  return impl_->render(index, runner);
+}
+
+Result<TrueFrame> render(const SceneOptions& options, int index) {
+  return Renderer::create(options).and_then([&](Renderer renderer) {
+    const auto runner = make_runner(1);
+    return renderer.render(index, *runner);
+  });
+}
+
+}  // namespace thermedge::sim

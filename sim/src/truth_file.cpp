@@ -1,0 +1,90 @@
+#include "thermedge/sim/truth_file.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace thermedge::sim {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+double rounded(double value, double steps) { return std::round(value * steps) / steps; }
+
+const char* name_of(EdgeKind kind) {
+  return kind == EdgeKind::kOccluding ? "occluding"
+         : kind == EdgeKind::kCrease  ? "crease"
+                                      : "material";
+}
+
+Json to_json(const TrueEdge& edge) {
+  Json points = Json::array();
+  for (const Point p : edge.points) {
+    points.push_back({rounded(p.x, 1e4), rounded(p.y, 1e4)});
+  }
+  return {{"id", edge.id},
+          {"object", edge.object},
+          {"kind", name_of(edge.kind)},
+          {"contrast_counts", rounded(edge.contrast_counts, 1e3)},
+          {"closed", edge.closed},
+          {"points", std::move(points)}};
+}
+
+Json to_json(const std::optional<ShutterState>& shutter) {
+  if (!shutter) {
+    return nullptr;
+  }
+  return {{"frozen", shutter->frozen},
+          {"shows_frame", shutter->shows_frame},
+          {"jump_counts", rounded(shutter->jump_counts, 1e3)}};
+}
+
+// Locale-free, with a fixed number of digits after the point.
+std::string fixed(double value, int digits) {
+  char text[64];
+  return {
+      std::begin(text),
+      std::to_chars(std::begin(text), std::end(text), value, std::chars_format::fixed, digits).ptr};
+}
+
+}  // namespace
+
+std::string truth_line(const TrueFrame& frame) {
+  const Vec3 at = frame.pose.position_m;
+  const Intrinsics& i = frame.intrinsics;
+  Json edges = Json::array();
+  for (const TrueEdge& edge : frame.edges) {
+    edges.push_back(to_json(edge));
+  }
+  const Json line = {
+      {"frame", frame.index},
+      {"stamp_ns", frame.stamp_ns},
+      {"width", i.width},
+      {"height", i.height},
+      {"pose",
+       {{"position_m", {at.x, at.y, at.z}}, {"orientation_xyzw", frame.pose.orientation_xyzw}}},
+      {"intrinsics",
+       {{"fx_px", i.fx_px},
+        {"fy_px", i.fy_px},
+        {"cx_px", i.cx_px},
+        {"cy_px", i.cy_px},
+        {"k1", i.k1},
+        {"k2", i.k2}}},
+      {"shutter", to_json(frame.shutter)},
+      {"edges", std::move(edges)}};
+  return line.dump() + "\n";
+}
+
+std::string trajectory_line(const TrueFrame& frame) {
+  std::string line = fixed(static_cast<double>(frame.stamp_ns) * 1e-9, 9);
+  const Vec3 at = frame.pose.position_m;
+  for (const double value : {at.x, at.y, at.z}) {
+    line += " " + fixed(value, 9);
+  }
+  for (const double value : frame.pose.orientation_xyzw) {
+    line += " " + fixed(value, 9);
+  }
+  return line + "\n";
+}
+
+}  // namespace thermedge::sim
