@@ -13,5 +13,6 @@ void add_stages(CLI::App& program, int& exit_code);
 void add_compare(CLI::App& program, int& exit_code);
 void add_bench(CLI::App& program, int& exit_code);
 void add_probe(CLI::App& program, int& exit_code);
+void add_simulate(CLI::App& program, int& exit_code);
 
 }  // namespace thermedge::cli

@@ -16,6 +16,8 @@ for scene in desk corridor; do
     "$thermedge" detect "$spec"
   done
 done
+echo "== a recording with its true edges"
+"$thermedge" simulate office -o "$out/office" --path drive --frames 20
 echo "== sheets"
 "$thermedge" stages 'sim:desk?sigma=20' -o "$out/stages.png"
 "$thermedge" compare 'sim:desk?sigma=20' -o "$out/compare.png"
@@ -25,6 +27,7 @@ echo "Look at"
 echo "  $out/stages.png    every step from the frame to its edges"
 echo "  $out/compare.png   the classical detectors and ours on one frame"
 echo "  $out/probe.png     what the recording is like"
+echo "  $out/office        a simulated recording: counts, depth, true edges, trajectory"
 echo "and, for each of $out/desk_sigma6, desk_sigma20, corridor_sigma6, corridor_sigma20:"
 echo "  frame.png        the noisy frame, 8 bit at constant degrees per grey level (Algorithm 1)"
 echo "  mask/*.png       the edges as a binary picture"

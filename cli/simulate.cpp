@@ -1,0 +1,189 @@
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "commands.hpp"
+#include "common.hpp"
+#include "thermedge/io/write.hpp"
+#include "thermedge/sim/scene.hpp"
+#include "thermedge/sim/truth_file.hpp"
+
+namespace thermedge::cli {
+namespace {
+
+constexpr std::array<std::string_view, 4> kKinds = {"counts", "clean", "truth", "depth"};
+
+struct SimulateCommand {
+  std::string scene;
+  std::string output;
+  std::string camera = "pi450";
+  std::string path = "hand";
+  std::string write = "counts,clean,truth,depth";
+  std::string format = "png";
+  std::optional<int> frames;
+  std::optional<std::string> seed;
+  std::optional<std::string> netd_mk;
+  std::vector<std::string> settings;
+  int threads = 0;
+  bool quiet = false;
+  bool json_log = false;
+
+  [[nodiscard]] bool writes(std::string_view kind) const {
+    const auto kinds = split_list(write);
+    return std::find(kinds.begin(), kinds.end(), kind) != kinds.end();
+  }
+  [[nodiscard]] Result<sim::SceneOptions> options() const;
+  [[nodiscard]] int run() const;
+  [[nodiscard]] Status write_frame(const sim::TrueFrame& frame, OutputDirectory& directory) const;
+  [[nodiscard]] Status write_all(sim::Renderer& renderer, Report& report) const;
+};
+
+// The camera first, then what changes it, --set last.
+Result<sim::SceneOptions> SimulateCommand::options() const {
+  auto options = sim::parse_scene(scene);
+  if (!options) {
+    return options;
+  }
+  std::vector<std::pair<std::string, std::string>> keys = {
+      {"camera", camera}, {"path", path}, {"frames", std::to_string(frames.value_or(100))}};
+  if (seed) {
+    keys.emplace_back("seed", *seed);
+  }
+  if (netd_mk) {
+    keys.emplace_back("netd_mk", *netd_mk);
+  }
+  for (const std::string& setting : settings) {
+    const auto equals = std::min(setting.find('='), setting.size());
+    keys.emplace_back(setting.substr(0, equals),
+                      setting.substr(std::min(equals + 1, setting.size())));
+  }
+  for (const auto& [key, value] : keys) {
+    if (Status status = sim::set_scene_key(key, value, *options); !status) {
+      return tl::unexpected(status.error());
+    }
+  }
+  options->depth = writes("depth");
+  return options;
+}
+
+// As the camera would give it without noise: in whole counts.
+Image<std::uint16_t> rounded(ImageView<const float> clean) {
+  Image<std::uint16_t> counts(clean.width(), clean.height());
+  for (int y = 0; y < clean.height(); ++y) {
+    std::transform(clean.row(y), clean.row(y) + clean.width(), counts.row(y), [](float value) {
+      return static_cast<std::uint16_t>(std::clamp(value, 0.0F, 65535.0F) + 0.5F);
+    });
+  }
+  return counts;
+}
+
+Status SimulateCommand::write_frame(const sim::TrueFrame& frame, OutputDirectory& directory) const {
+  directory.begin_frame(fmt::format("frame_{:06}", frame.index));
+  const auto picture = [&](const std::string& kind, const std::string& ending, auto view) {
+    return directory.path(kind, ending).and_then([&](const std::string& file) {
+      return io::write_picture(file, view);
+    });
+  };
+  using Counts = ImageView<const std::uint16_t>;
+  Status status;
+  if (writes("counts")) {
+    status = picture("counts", "." + format, Counts(frame.counts.view()));
+  }
+  if (status && writes("clean")) {
+    const Image<std::uint16_t> clean = rounded(frame.clean);
+    status = picture("clean", "." + format, Counts(clean.view()));
+  }
+  if (status && writes("depth")) {
+    status = picture("depth", ".png", Counts(frame.depth_mm.view()));
+  }
+  return status;
+}
+
+Status SimulateCommand::write_all(sim::Renderer& renderer, Report& report) const {
+  const auto runner = make_runner(threads);
+  OutputDirectory directory(output);
+  std::string truth;
+  std::string trajectory;
+  const int count = renderer.options().frames;
+  for (int index = 0; index < count; ++index) {
+    Status status = renderer.render(index, *runner).and_then([&](const sim::TrueFrame& frame) {
+      if (writes("truth")) {
+        truth += sim::truth_line(frame);
+        trajectory += sim::trajectory_line(frame);
+      }
+      return write_frame(frame, directory);
+    });
+    if (!status) {
+      return status;
+    }
+    report.progress(static_cast<std::size_t>(index) + 1, static_cast<std::size_t>(count));
+  }
+  if (!writes("truth")) {
+    return {};
+  }
+  std::error_code error;  // shows again, with its reason, when the files are written
+  std::filesystem::create_directories(output, error);
+  const std::filesystem::path folder(output);
+  return io::write_file((folder / "truth.jsonl").string(), truth).and_then([&] {
+    return io::write_file((folder / "trajectory.txt").string(), trajectory);
+  });
+}
+
+int SimulateCommand::run() const {
+  Report report(quiet, json_log);
+  for (const std::string& kind : split_list(write)) {
+    if (std::find(kKinds.begin(), kKinds.end(), kind) == kKinds.end()) {
+      report.error("--write " + kind + ": should be some of counts, clean, truth, depth");
+      return kBadUsage;
+    }
+  }
+  auto renderer = options().and_then(sim::Renderer::create);
+  if (!renderer) {
+    return report.fail(renderer.error());
+  }
+  const Status status = write_all(*renderer, report);
+  return status ? report.exit_code() : report.fail(status.error());
+}
+
+}  // namespace
+
+void add_simulate(CLI::App& program, int& exit_code) {
+  CLI::App& app = *program.add_subcommand(
+      "simulate", "a thermal scene as a camera sees it: frames with their true edges");
+  auto command = std::make_shared<SimulateCommand>();
+  app.add_option("SCENE", command->scene,
+                 "desk, corridor, office, road, empty, or a scene file (.toml, docs/scenes.md)")
+      ->required();
+  app.add_option("-o,--output", command->output, "directory")->required();
+  app.add_option("--camera", command->camera, "the camera's optics and noise")
+      ->check(CLI::IsMember(sim::camera_names()))
+      ->capture_default_str();
+  app.add_option("--path", command->path, "how the camera moves")
+      ->check(CLI::IsMember({"hand", "drive", "pan", "still"}))
+      ->capture_default_str();
+  app.add_option("--frames", command->frames, "number of frames (default 100)")
+      ->check(CLI::Range(1, 1000000));
+  app.add_option("--seed", command->seed, "noise, path, variations of the scene");
+  app.add_option("--netd-mk", command->netd_mk, "temporal noise, mK (default: the camera's)");
+  app.add_option("--write", command->write, "some of counts,clean,truth,depth")
+      ->capture_default_str();
+  app.add_option("--format", command->format, "of the pictures")
+      ->check(CLI::IsMember({"png", "tif", "npy"}))
+      ->capture_default_str();
+  app.add_option("--set", command->settings,
+                 "another key of sim:NAME?key=value, e.g. shutter_every=200; may be repeated")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  app.add_option("--threads", command->threads, "threads (0: one per core)")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  app.add_flag("--quiet", command->quiet, "errors only");
+  app.add_flag("--json-log", command->json_log, "messages as JSON lines");
+  app.callback([command, &exit_code] { exit_code = command->run(); });
+}
+
+}  // namespace thermedge::cli
