@@ -115,7 +115,6 @@ void Caster::look(const Pose& pose, Runner& runner) {
   std::sort(seen_.begin(), seen_.end(), [](const SeenFacet& a, const SeenFacet& b) {
     return a.least_depth != b.least_depth ? a.least_depth < b.least_depth : a.index < b.index;
   });
-  lists_.resize(tiles_.size() * seen_.size());
   runner.run(tiles_y_, [&](int row) {
     for (int column = 0; column < tiles_x_; ++column) {
       fill_tile(row * tiles_x_ + column);
@@ -145,11 +144,11 @@ void Caster::fill_tile(int index) {
   for (int i = 0; i < 4; ++i) {
     sides[i] = unit(cross(rays[i], rays[(i + 1) % 4]));
   }
-  Tile& tile = tiles_[static_cast<std::size_t>(index)];
-  tile = {static_cast<std::size_t>(index) * seen_.size(), 0};
+  std::vector<std::int16_t>& tile = tiles_[static_cast<std::size_t>(index)];
+  tile.clear();
   for (std::size_t i = 0; i < seen_.size(); ++i) {
     if (may_show(seen_[i], sides)) {
-      lists_[tile.first + tile.count++] = static_cast<std::int16_t>(i);
+      tile.push_back(static_cast<std::int16_t>(i));
     }
   }
 }
@@ -160,8 +159,7 @@ std::span<const std::int16_t> Caster::facets_near(Point pixel) const {
     return static_cast<int>(std::clamp(tile, 0.0, count - 1.0));
   };
   const int index = tile_of(pixel.y, tiles_y_) * tiles_x_ + tile_of(pixel.x, tiles_x_);
-  const Tile& tile = tiles_[static_cast<std::size_t>(index)];
-  return {lists_.data() + tile.first, tile.count};
+  return tiles_[static_cast<std::size_t>(index)];
 }
 
 Hit Caster::cast(Point ray, std::span<const std::int16_t> among) const {

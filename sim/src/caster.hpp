@@ -67,9 +67,6 @@ class Caster {
 
  private:
   static constexpr int kTilePx = 16;
-  struct Tile {
-    std::size_t first = 0, count = 0;
-  };
   [[nodiscard]] Vec3 direction(Point ray) const {
     return axes_.right * ray.x + axes_.down * ray.y + axes_.forward;
   }
@@ -84,9 +81,8 @@ class Caster {
   int tiles_x_, tiles_y_;
   Vec3 eye_;
   Axes axes_;
-  std::vector<SeenFacet> seen_;      // facets that face the camera, nearest first
-  std::vector<std::int16_t> lists_;  // of seen_'s elements; one part of seen_'s size for each tile
-  std::vector<Tile> tiles_;
+  std::vector<SeenFacet> seen_;                   // facets that face the camera, nearest first
+  std::vector<std::vector<std::int16_t>> tiles_;  // which of seen_ may show in each
 };
 
 }  // namespace thermedge::sim

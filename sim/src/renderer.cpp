@@ -1,4 +1,5 @@
 #include <cmath>
+#include <new>
 
 #include "imager.hpp"
 #include "path.hpp"
@@ -28,6 +29,16 @@ Status check_lens(const SceneOptions& options, const Lens& lens) {
   return failure(
       ErrorCode::kInvalidArgument,
       "sim:" + options.name + ": k1 and k2 bend rays back at this fov; both should be nearer to 0");
+}
+
+// Runs `work`; running out of memory becomes an error.
+auto within_memory(const SceneOptions& options, const auto& work) -> decltype(work()) {
+  try {
+    return work();
+  } catch (const std::bad_alloc&) {
+    return failure(ErrorCode::kOutOfMemory,
+                   "sim:" + options.name + ": out of memory; try a smaller width and height");
+  }
 }
 
 }  // namespace
@@ -92,11 +103,14 @@ Renderer::~Renderer() = default;
 const SceneOptions& Renderer::options() const { return impl_->options(); }
 
 Result<Renderer> Renderer::create(const SceneOptions& options) {
-  return check(options)
-      .and_then([&] { return check_lens(options, Lens(intrinsics_of(options.camera))); })
-      .and_then([&] { return find_world(options); })
-      .map(
-          [&](World world) { return Renderer(std::make_unique<Impl>(options, std::move(world))); });
+  return within_memory(options, [&]() -> Result<Renderer> {
+    return check(options)
+        .and_then([&] { return check_lens(options, Lens(intrinsics_of(options.camera))); })
+        .and_then([&] { return find_world(options); })
+        .map([&](World world) {
+          return Renderer(std::make_unique<Impl>(options, std::move(world)));
+        });
+  });
 }
 
 Result<TrueFrame> Renderer::render(int index, Runner& runner) {
@@ -105,7 +119,8 @@ Result<TrueFrame> Renderer::render(int index, Runner& runner) {
                                                     std::to_string(index) + "; frames are 0 to " +
                                                     std::to_string(options().frames - 1));
   }
-  return impl_->render(index, runner);
+  return within_memory(options(),
+                       [&]() -> Result<TrueFrame> { return impl_->render(index, runner); });
 }
 
 Result<TrueFrame> render(const SceneOptions& options, int index) {
