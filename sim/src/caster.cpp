@@ -46,7 +46,7 @@ bool roots(double a, double b, double c, double (&t)[2]) {
 }  // namespace
 
 SeenFacet::SeenFacet(const Facet& facet, std::int16_t number, Vec3 eye, double depth)
-    : kind(facet.kind), index(number), least_depth(depth) {
+    : kind(facet.kind), is_flat(facet.is_flat()), index(number), least_depth(depth) {
   const Vec3 way = facet.centre - eye;
   a = facet.normal;
   a0 = dot(a, way);
@@ -62,18 +62,16 @@ SeenFacet::SeenFacet(const Facet& facet, std::int16_t number, Vec3 eye, double d
   }
 }
 
-double SeenFacet::hit(Vec3 direction) const {
-  if (kind == Facet::Kind::kQuad || kind == Facet::Kind::kDisc) {
-    const double t = a0 / dot(a, direction);
-    if (!(t > kNearestM) || t > kFarthestM) {
-      return 0;
-    }
-    const double u = b0 + t * dot(b, direction);
-    const double v = c0 + t * dot(c, direction);
-    const bool inside =
-        kind == Facet::Kind::kQuad ? std::abs(u) <= 1 && std::abs(v) <= 1 : u * u + v * v <= 1;
-    return inside ? t : 0;
-  }
+inline double SeenFacet::hit_flat(Vec3 direction) const {
+  const double t = a0 / dot(a, direction);
+  const double u = b0 + t * dot(b, direction);
+  const double v = c0 + t * dot(c, direction);
+  const bool inside =
+      kind == Facet::Kind::kQuad ? std::abs(u) <= 1 && std::abs(v) <= 1 : u * u + v * v <= 1;
+  return inside && t > kNearestM && t < kFarthestM ? t : 0;
+}
+
+double SeenFacet::hit_round(Vec3 direction) const {
   const bool tube = kind == Facet::Kind::kTube;
   const double along = tube ? dot(a, direction) : 0;
   const Vec3 across = direction - a * along;
@@ -170,7 +168,7 @@ Hit Caster::cast(Point ray, std::span<const std::int16_t> among) const {
     if (best.facet >= 0 && seen.least_depth > best.depth) {
       break;  // all that follow begin farther away
     }
-    const double depth = seen.hit(towards);
+    const double depth = seen.is_flat ? seen.hit_flat(towards) : seen.hit_round(towards);
     if (depth > 0 && (best.facet < 0 || depth < best.depth)) {
       best.facet = seen.index;
       best.depth = depth;

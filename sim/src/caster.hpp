@@ -26,6 +26,7 @@ struct Hit {
 // A facet before the eye: what the intersection with a ray needs, worked out once.
 struct SeenFacet {
   Facet::Kind kind = Facet::Kind::kQuad;
+  bool is_flat = true;
   std::int16_t index = 0;
   double least_depth = 0;  // nothing of it is nearer
   // Flat ones: the normal, and both coordinates on the facet along a ray, each as a slope and what
@@ -35,7 +36,8 @@ struct SeenFacet {
 
   SeenFacet(const Facet& facet, std::int16_t number, Vec3 eye, double depth);
   // How many `direction`s away the ray's first hit beyond kNearestM is; 0: no hit.
-  [[nodiscard]] double hit(Vec3 direction) const;
+  [[nodiscard]] double hit_flat(Vec3 direction) const;   // quads and discs
+  [[nodiscard]] double hit_round(Vec3 direction) const;  // tubes and balls
 };
 
 // The facets of a world before one camera. Sorted into tiles of the picture, so that a ray meets
