@@ -80,31 +80,35 @@ std::optional<ShutterState> shutter_at(const CameraOptions& camera, std::uint64_
 Sensor::Sensor(const CameraOptions& camera, std::uint64_t seed)
     : camera_(camera),
       seed_(seed),
-      columns_{kColumns, camera.column_sigma_counts, static_cast<std::size_t>(camera.width), {}},
-      rows_{kRows, camera.row_sigma_counts, static_cast<std::size_t>(camera.height), {}},
-      offsets_{kOffsets,
-               camera.pixel_sigma_counts,
-               static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height),
-               {}},
-      gains_{kGains, camera.gain_sigma, offsets_.size, {}} {}
+      columns_{kColumns, camera.column_sigma_counts, static_cast<std::size_t>(camera.width)},
+      rows_{kRows, camera.row_sigma_counts, static_cast<std::size_t>(camera.height)},
+      offsets_{kOffsets, camera.pixel_sigma_counts,
+               static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height)},
+      gains_{kGains, camera.gain_sigma, offsets_.size} {}
 
 // Between two independent patterns on a circular arc, which keeps the variance.
 void Sensor::update(Pattern& pattern, int frame) const {
   if (pattern.sigma <= 0) {
     return;
   }
-  const Random random(seed_, pattern.stream);
   const double age = camera_.drift_s > 0 ? frame / (camera_.rate_hz * camera_.drift_s) : 0.0;
   const double knot = std::floor(age);
+  if (pattern.knot != knot) {
+    const Random random(seed_, pattern.stream);
+    const auto first = static_cast<std::uint64_t>(knot) * pattern.size;
+    pattern.from.resize(pattern.size);
+    pattern.to.resize(pattern.size);
+    pattern.values.resize(pattern.size);
+    for (std::size_t i = 0; i < pattern.size; ++i) {
+      pattern.from[i] = random.normal(first + i);
+      pattern.to[i] = random.normal(first + pattern.size + i);
+    }
+    pattern.knot = knot;
+  }
   const double t = age - knot;
   const double length = std::sqrt(t * t + (1 - t) * (1 - t));
-  const auto first = static_cast<std::uint64_t>(knot) * pattern.size;
-  pattern.values.resize(pattern.size);
   for (std::size_t i = 0; i < pattern.size; ++i) {
-    double value = (1 - t) * random.normal(first + i);
-    if (t > 0) {
-      value += t * random.normal(first + pattern.size + i);
-    }
+    const double value = (1 - t) * pattern.from[i] + t * pattern.to[i];
     pattern.values[i] = pattern.sigma * value / length;
   }
 }

@@ -33,7 +33,10 @@ class Sensor {
     std::uint64_t stream;
     double sigma;
     std::size_t size;
-    std::vector<double> values;
+    std::vector<double> values{};
+    // What `values` lie between, and which pair of the sequence that is.
+    std::vector<double> from{}, to{};
+    double knot = -1;
   };
   void update(Pattern& pattern, int frame) const;
   void flicker(int frame, ImageView<std::uint16_t> counts) const;

@@ -119,10 +119,10 @@ class Tracer {
     return pixel ? std::optional(CurvePoint{t, *pixel}) : std::nullopt;
   }
 
-  // Whether both lie beyond the same side of the picture. Lines stay there; of ellipses, no more
-  // than the bulge of a thirty-second part comes back, which is less than the margin.
+  // Whether both lie beyond the same side of the picture, and the curve between them too: neither
+  // distortion nor a thirty-second part of an ellipse bends it back by a quarter of its length.
   [[nodiscard]] bool outside(Point a, Point b) const {
-    const double margin = 2 + (curve_.closed ? distance(a, b) / 4 : 0);
+    const double margin = 2 + distance(a, b) / 4;
     const double right = intrinsics_.width - 1 + margin;
     const double bottom = intrinsics_.height - 1 + margin;
     return (a.x < -margin && b.x < -margin) || (a.y < -margin && b.y < -margin) ||

@@ -112,6 +112,22 @@ TEST(Truth, BendsAsTheLensDoes) {
   EXPECT_GT(most - least, 1);
 }
 
+// Both ends of the line lie left of the picture, its middle within.
+TEST(Truth, ShowsLinesThatTheLensBendsIn) {
+  CameraOptions camera = small_camera();
+  camera.fov_deg = 80;
+  camera.k1 = 0.3;
+  const double x = Lens(intrinsics_of(camera)).ray({1.5, 35.5}).x;
+  const SmallWorld world(camera, 20, facing(1, x, -0.75, 1.5, 30));
+  int points = 0;
+  for (const TrueEdge& edge : world.edges) {
+    for (const Point p : edge.points) {
+      points += std::abs(world.lens().ray(p).x - x) < 1e-9 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(points, 15);
+}
+
 TEST(Lens, UndoesItsDistortion) {
   CameraOptions camera = small_camera();
   camera.fov_deg = 80;
