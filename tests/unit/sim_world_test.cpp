@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 #include <string>
 
 #include "support/files.hpp"
@@ -135,6 +136,41 @@ TEST(World, FilesAreScenesLikeTheBuiltInOnes) {
   ASSERT_FALSE(missing);
   EXPECT_EQ(missing.error().message, "missing.toml: cannot be read as a scene file");
   EXPECT_EQ(missing.error().code, ErrorCode::kIo);
+}
+
+// Whatever stands in a file: a world that can be rendered, or one line that names the file.
+TEST(World, DamagedFilesGiveAnErrorOrAWorld) {
+  const test::TemporaryDirectory directory;
+  const std::string path = directory / "damaged.toml";
+  std::mt19937 random(3);
+  int good = 0;
+  int bad = 0;
+  for (const std::string name : {"office", "road"}) {
+    const std::string whole(*built_in_scene(name));
+    for (int i = 0; i < 200; ++i) {
+      std::string toml = whole;
+      // Every second time, some digits become others.
+      for (int k = 0; k < (i % 2 == 0 ? 1 : 40); ++k) {
+        char& c = toml[random() % toml.size()];
+        if (i % 2 == 0) {
+          c = "0123456789-.e[]'= x"[random() % 19];
+        } else if (c >= '0' && c <= '9') {
+          c = static_cast<char>('0' + random() % 10);
+        }
+      }
+      test::write_text(path, i % 10 == 0 ? toml.substr(0, random() % toml.size()) : toml);
+      const auto frame = render(*parse_scene("sim:" + path + "?width=24&height=16"), 0);
+      if (frame) {
+        ++good;
+      } else {
+        ++bad;
+        EXPECT_EQ(frame.error().message.find(path), 0U) << frame.error().message;
+        EXPECT_EQ(frame.error().message.find('\n'), std::string::npos) << frame.error().message;
+      }
+    }
+  }
+  EXPECT_GT(good, 20);
+  EXPECT_GT(bad, 20);
 }
 
 TEST(World, BuiltInScenesAreGoodForEverySeed) {
