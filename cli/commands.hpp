@@ -14,5 +14,6 @@ void add_compare(CLI::App& program, int& exit_code);
 void add_bench(CLI::App& program, int& exit_code);
 void add_probe(CLI::App& program, int& exit_code);
 void add_simulate(CLI::App& program, int& exit_code);
+void add_evaluate(CLI::App& program, int& exit_code);
 
 }  // namespace thermedge::cli

@@ -27,6 +27,7 @@ int run(int argc, char** argv) {
   add_bench(program, exit_code);
   add_probe(program, exit_code);
   add_simulate(program, exit_code);
+  add_evaluate(program, exit_code);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -8,7 +8,7 @@ git ls-files '*.cpp' '*.hpp' | xargs clang-format --dry-run --Werror
 
 echo "== static analysis"
 cmake --preset release >/dev/null
-git ls-files 'src/*.cpp' 'sim/*.cpp' 'figures/*.cpp' 'cli/*.cpp' |
+git ls-files 'src/*.cpp' 'sim/*.cpp' 'figures/*.cpp' 'eval/*.cpp' 'cli/*.cpp' |
   xargs -P "$(nproc)" -n 2 clang-tidy --quiet -p build/release --warnings-as-errors='*' 2>/dev/null
 
 export UBSAN_OPTIONS=print_stacktrace=1

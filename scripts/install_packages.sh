@@ -6,7 +6,7 @@ set -euo pipefail
 declare -A packages=(
   [build]="g++ make cmake ninja-build libhwy-dev libtbb-dev libexpected-dev libpng-dev libtiff-dev
            nlohmann-json3-dev libtomlplusplus-dev libcli11-dev libfmt-dev libgtest-dev
-           pkg-config libcairo2-dev fonts-open-sans"
+           pkg-config libcairo2-dev fonts-open-sans libzip-dev libmatio-dev"
   [check]="clang-format clang-tidy"
   [bench]="libbenchmark-dev python3-matplotlib"
 )

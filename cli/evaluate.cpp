@@ -1,0 +1,133 @@
+// `evaluate`: how good are these edges?
+#include <fmt/core.h>
+
+#include <memory>
+
+#include "commands.hpp"
+#include "evaluation_page.hpp"
+#include "report.hpp"
+#include "thermedge/eval/evaluate.hpp"
+#include "thermedge/io/write.hpp"
+
+namespace thermedge::cli {
+namespace {
+
+struct EvaluateCommand {
+  std::string found;
+  std::string truth;
+  std::string output;
+  eval::EvaluationOptions options;
+  double least_contrast_counts = 0;
+  int threads = 0;
+  bool no_thin = false;
+  bool empty = false;
+  bool json = false;
+  bool quiet = false;
+  bool json_log = false;
+
+  [[nodiscard]] int run();
+
+ private:
+  [[nodiscard]] Result<std::string> with_truth(const eval::FoundSet& set, Report& report) const;
+  [[nodiscard]] Result<std::string> alone(const eval::FoundSet& set, Report& report) const;
+  [[nodiscard]] bool as_json() const { return json || output.ends_with(".json"); }
+};
+
+void report_all(const std::vector<Error>& errors, Report& report) {
+  for (const Error& error : errors) {
+    report.error(error.message + "; left out");
+  }
+}
+
+Result<std::string> EvaluateCommand::with_truth(const eval::FoundSet& set, Report& report) const {
+  const auto truth_set = eval::TruthSet::open(truth, {least_contrast_counts, {}});
+  if (!truth_set) {
+    return tl::unexpected(truth_set.error());
+  }
+  return eval::evaluate(set, *truth_set, options, *make_runner(threads))
+      .map([&](const eval::Evaluation& evaluation) {
+        report_all(evaluation.errors, report);
+        return as_json()
+                   ? eval::evaluation_to_json(evaluation, found, truth)
+                   : found + " against " + truth + ": " + evaluation_page(evaluation, options);
+      });
+}
+
+Result<std::string> EvaluateCommand::alone(const eval::FoundSet& set, Report& report) const {
+  return eval::evaluate_alone(set, options, *make_runner(threads))
+      .map([&](const eval::LoneEvaluation& evaluation) {
+        report_all(evaluation.errors, report);
+        return as_json() ? eval::evaluation_to_json(evaluation, found)
+                         : found + ": " + evaluation_page(evaluation, options, empty);
+      });
+}
+
+int EvaluateCommand::run() {
+  Report report(quiet, json_log);
+  if (empty && !truth.empty()) {
+    return report.fail({ErrorCode::kInvalidArgument, "--empty: empty scenes have no GT"});
+  }
+  options.count.thin = !no_thin;
+  const auto set = eval::FoundSet::open(found);
+  const Result<std::string> text = set.and_then([&](const eval::FoundSet& opened) {
+    return truth.empty() ? alone(opened, report) : with_truth(opened, report);
+  });
+  if (!text) {
+    return report.fail(text.error());
+  }
+  if (output.empty()) {
+    fmt::print("{}", *text);
+  } else if (const Status status = io::write_file(output, *text); !status) {
+    return report.fail(status.error());
+  }
+  return report.exit_code();
+}
+
+}  // namespace
+
+void add_evaluate(CLI::App& program, int& exit_code) {
+  CLI::App& app = *program.add_subcommand(
+      "evaluate", "edges against truth: precision, recall, F, structure, positions");
+  auto command = std::make_shared<EvaluateCommand>();
+  eval::EvaluationOptions& options = command->options;
+  app.add_option("PRED", command->found,
+                 "directory of edge maps (8-bit PNG, 255 strongest) or of results (JSON), one such "
+                 "file, or JSON lines (.jsonl)")
+      ->required();
+  app.add_option("GT", command->truth,
+                 "truth by base name: .npz, .mat (BSDS), .png, _*.png or .json in a directory, one "
+                 "such file, or JSON lines (.jsonl); without: structure and repeatability");
+  app.add_option("--at", options.at, "only at this threshold")->check(CLI::Range(1, 255));
+  app.add_option("--thresholds", options.thresholds, "number of thresholds for strength maps")
+      ->check(CLI::Range(1, 254))
+      ->capture_default_str();
+  app.add_flag("--no-thin", command->no_thin,
+               "thin strength maps once instead of at every threshold: many times as fast");
+  app.add_option("--max-dist", options.count.max_distance,
+                 "of matched pixels, share of the diagonal")
+      ->check(CLI::Range(0.0, 0.1))
+      ->capture_default_str();
+  app.add_option("--least-contrast", command->least_contrast_counts,
+                 "weaker true edges (curves) may be found but need not be, counts")
+      ->check(CLI::Range(0.0, 65535.0))
+      ->capture_default_str();
+  app.add_option("--sigma", options.sigma_counts,
+                 "noise for recall by contrast, counts (0: as the results say)")
+      ->check(CLI::Range(0.0, 65535.0))
+      ->capture_default_str();
+  app.add_option("--shift", options.most_shift_px,
+                 "without GT: largest motion between frames that is tried, px")
+      ->check(CLI::Range(0, 64))
+      ->capture_default_str();
+  app.add_flag("--empty", command->empty, "the scenes are empty: count false alarms");
+  app.add_option("-o,--output", command->output, "file for the page, or for JSON (.json)");
+  app.add_flag("--json", command->json, "one JSON object instead of the page");
+  app.add_option("--threads", command->threads, "threads (0: one per core)")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  app.add_flag("--quiet", command->quiet, "errors only");
+  app.add_flag("--json-log", command->json_log, "messages as JSON lines");
+  app.callback([command, &exit_code] { exit_code = command->run(); });
+}
+
+}  // namespace thermedge::cli

@@ -1,0 +1,279 @@
+#include "thermedge/eval/curves.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace thermedge::eval {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kPiecePx = 0.5;  // longest piece that counts as one
+
+Point between(Point a, Point b, double t) { return {a.x + t * (b.x - a.x), a.y + t * (b.y - a.y)}; }
+
+double distance(Point a, Point b) {
+  const double dx = b.x - a.x;
+  const double dy = b.y - a.y;
+  return std::sqrt(dx * dx + dy * dy);
+}
+
+// Calls visit(from, to) for each straight part of a curve; a lone point is a part of length 0.
+template <class F>
+void for_each_part(const Curve& curve, F&& visit) {
+  const auto& points = curve.points;
+  if (points.size() == 1) {
+    visit(points[0], points[0]);
+  }
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    visit(points[i - 1], points[i]);
+  }
+  if (curve.closed && points.size() > 2) {
+    visit(points.back(), points.front());
+  }
+}
+
+// Calls visit(middle, length) for equal pieces of at most kPiecePx.
+template <class F>
+void for_each_piece(const Curve& curve, F&& visit) {
+  for_each_part(curve, [&](Point from, Point to) {
+    const double length = distance(from, to);
+    const int pieces = std::max(1, static_cast<int>(std::ceil(length / kPiecePx)));
+    for (int i = 0; i < pieces; ++i) {
+      visit(between(from, to, (i + 0.5) / pieces), length / pieces);
+    }
+  });
+}
+
+template <class F>
+void for_each_point(const CurveFrame& frame, F&& visit) {
+  for (const Curve& curve : frame.curves) {
+    for (const Point point : curve.points) {
+      visit(point);
+    }
+  }
+}
+
+bool inside(const CurveFrame& frame, Point point) {
+  return point.x >= -0.5 && point.y >= -0.5 && point.x < frame.width - 0.5 &&
+         point.y < frame.height - 0.5;
+}
+
+Repeatability count_repeated(const CurveFrame& from, const CurveFrame& to,
+                             const NearestOnCurves& there,
+                             const std::function<Point(Point)>& motion) {
+  Repeatability result;
+  for_each_point(from, [&](Point point) {
+    const Point moved = motion(point);
+    if (inside(to, moved)) {
+      ++result.points;
+      result.repeated += there.is_near(moved) ? 1 : 0;
+    }
+  });
+  return result;
+}
+
+}  // namespace
+
+void draw_curves(const CurveFrame& frame, double least_contrast_counts, Image<std::uint8_t>& map) {
+  map.resize(frame.width, frame.height);
+  fill_pixels(map.view(), std::uint8_t{0});
+  const auto paint = [&](Point point) {
+    if (inside(frame, point)) {
+      map(static_cast<int>(std::floor(point.x + 0.5)),
+          static_cast<int>(std::floor(point.y + 0.5))) = 255;
+    }
+  };
+  for (const Curve& curve : frame.curves) {
+    if (curve.contrast_counts < least_contrast_counts) {
+      continue;
+    }
+    std::for_each(curve.points.begin(), curve.points.end(), paint);
+    for_each_piece(curve, [&](Point middle, double) { paint(middle); });
+  }
+}
+
+NearestOnCurves::NearestOnCurves(std::span<const Curve> curves, double reach_px)
+    : reach_px_(reach_px), cell_px_(std::max(reach_px, 4.0)) {
+  Point high{0, 0};
+  bool any = false;
+  for (const Curve& curve : curves) {
+    const std::size_t first = segments_.size();
+    for_each_part(curve, [&](Point from, Point to) { segments_.push_back({from, to}); });
+    if (!curve.closed && segments_.size() > first) {
+      segments_[first].open_from = true;
+      segments_.back().open_to = true;
+    }
+    for (const Point point : curve.points) {
+      low_ = any ? Point{std::min(low_.x, point.x), std::min(low_.y, point.y)} : point;
+      high = any ? Point{std::max(high.x, point.x), std::max(high.y, point.y)} : point;
+      any = true;
+    }
+  }
+  if (!any) {
+    return;
+  }
+  columns_ = static_cast<int>((high.x - low_.x) / cell_px_) + 1;
+  rows_ = static_cast<int>((high.y - low_.y) / cell_px_) + 1;
+  cells_.resize(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_));
+  for (std::uint32_t i = 0; i < segments_.size(); ++i) {
+    const Segment& segment = segments_[i];
+    for_each_cell({std::min(segment.from.x, segment.to.x), std::min(segment.from.y, segment.to.y)},
+                  {std::max(segment.from.x, segment.to.x), std::max(segment.from.y, segment.to.y)},
+                  [&](std::size_t cell) { cells_[cell].push_back(i); });
+  }
+}
+
+template <class F>
+void NearestOnCurves::for_each_cell(Point low, Point high, F&& visit) const {
+  const auto cell_of = [&](double offset, int count) {
+    return static_cast<int>(std::clamp(std::floor(offset / cell_px_), -1.0, double{1} * count));
+  };
+  const int left = std::max(cell_of(low.x - low_.x, columns_), 0);
+  const int right = std::min(cell_of(high.x - low_.x, columns_), columns_ - 1);
+  const int top = std::max(cell_of(low.y - low_.y, rows_), 0);
+  const int bottom = std::min(cell_of(high.y - low_.y, rows_), rows_ - 1);
+  for (int row = top; row <= bottom; ++row) {
+    for (int column = left; column <= right; ++column) {
+      visit(static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
+            static_cast<std::size_t>(column));
+    }
+  }
+}
+
+// Of places at the same distance the one on the first curve is taken.
+NearestOnCurves::Place NearestOnCurves::nearest(Point point) const {
+  Place best;
+  std::uint32_t best_segment = 0;
+  const auto look = [&](std::uint32_t index) {
+    const Segment& segment = segments_[index];
+    const double dx = segment.to.x - segment.from.x;
+    const double dy = segment.to.y - segment.from.y;
+    const double px = point.x - segment.from.x;
+    const double py = point.y - segment.from.y;
+    const double squared_length = dx * dx + dy * dy;
+    const double along = squared_length > 0 ? (px * dx + py * dy) / squared_length : 0;
+    const double t = std::clamp(along, 0.0, 1.0);
+    const double away = distance(point, between(segment.from, segment.to, t));
+    if (away <= reach_px_ &&
+        (away < best.distance_px || (away == best.distance_px && index < best_segment))) {
+      best.distance_px = away;
+      best.offset_px = dx * py - dy * px >= 0 ? away : -away;
+      best.beside = !(segment.open_from && along < 0) && !(segment.open_to && along > 1);
+      best_segment = index;
+    }
+  };
+  for_each_cell(
+      {point.x - reach_px_, point.y - reach_px_}, {point.x + reach_px_, point.y + reach_px_},
+      [&](std::size_t cell) { std::for_each(cells_[cell].begin(), cells_[cell].end(), look); });
+  return best;
+}
+
+double Localisation::mean_px() const {
+  return points > 0 ? offset_sum_px / static_cast<double>(points) : kNan;
+}
+
+double Localisation::rms_px() const {
+  return points > 0 ? std::sqrt(squared_sum_px2 / static_cast<double>(points)) : kNan;
+}
+
+Localisation& Localisation::operator+=(const Localisation& other) {
+  points += other.points;
+  offset_sum_px += other.offset_sum_px;
+  squared_sum_px2 += other.squared_sum_px2;
+  return *this;
+}
+
+Localisation localise(const CurveFrame& found, const CurveFrame& truth, double reach_px) {
+  const NearestOnCurves there(truth.curves, reach_px);
+  Localisation result;
+  for_each_point(found, [&](Point point) {
+    const auto place = there.nearest(point);
+    if (place.distance_px <= reach_px && place.beside) {
+      ++result.points;
+      result.offset_sum_px += place.offset_px;
+      result.squared_sum_px2 += place.offset_px * place.offset_px;
+    }
+  });
+  return result;
+}
+
+ContrastRecall::ContrastRecall(std::vector<double> bin_limits)
+    : limits(std::move(bin_limits)), true_px(limits.size(), 0), found_px(limits.size(), 0) {}
+
+void ContrastRecall::add(const CurveFrame& found, const CurveFrame& truth, double reach_px,
+                         double unit_counts) {
+  const NearestOnCurves there(found.curves, reach_px);
+  for (const Curve& curve : truth.curves) {
+    const double contrast = curve.contrast_counts / unit_counts;
+    const auto above = std::upper_bound(limits.begin(), limits.end(), contrast);
+    if (std::isnan(contrast) || above == limits.begin()) {
+      continue;
+    }
+    const auto bin = static_cast<std::size_t>(above - limits.begin() - 1);
+    for_each_piece(curve, [&](Point middle, double length_px) {
+      true_px[bin] += length_px;
+      found_px[bin] += there.is_near(middle) ? length_px : 0;
+    });
+  }
+}
+
+ContrastRecall& ContrastRecall::operator+=(const ContrastRecall& other) {
+  for (std::size_t i = 0; i < limits.size(); ++i) {
+    true_px[i] += other.true_px[i];
+    found_px[i] += other.found_px[i];
+  }
+  return *this;
+}
+
+double Repeatability::share() const {
+  return points > 0 ? static_cast<double>(repeated) / static_cast<double>(points) : kNan;
+}
+
+Repeatability repeatability(const CurveFrame& from, const CurveFrame& to,
+                            const std::function<Point(Point)>& motion, double reach_px) {
+  return count_repeated(from, to, NearestOnCurves(to.curves, reach_px), motion);
+}
+
+ShiftedRepeatability best_shift(const CurveFrame& from, const CurveFrame& to, int most_px,
+                                double reach_px) {
+  std::vector<std::pair<int, int>> shifts;  // dy, dx
+  for (int dy = -most_px; dy <= most_px; ++dy) {
+    for (int dx = -most_px; dx <= most_px; ++dx) {
+      shifts.emplace_back(dy, dx);
+    }
+  }
+  std::stable_sort(shifts.begin(), shifts.end(), [](const auto& a, const auto& b) {
+    return a.first * a.first + a.second * a.second < b.first * b.first + b.second * b.second;
+  });
+  const NearestOnCurves there(to.curves, reach_px);
+  ShiftedRepeatability best;
+  bool any = false;
+  for (const auto& [dy, dx] : shifts) {
+    const auto shifted = count_repeated(from, to, there, [x = dx, y = dy](Point point) {
+      return Point{point.x + x, point.y + y};
+    });
+    if (!any || shifted.repeated > best.repeatability.repeated) {
+      best = {dx, dy, shifted};
+      any = true;
+    }
+  }
+  return best;
+}
+
+CurveFrame pixels_as_curves(ImageView<const std::uint8_t> map) {
+  CurveFrame frame;
+  frame.width = map.width();
+  frame.height = map.height();
+  for (int y = 0; y < map.height(); ++y) {
+    for (int x = 0; x < map.width(); ++x) {
+      if (map(x, y) != 0) {
+        Curve curve;
+        curve.points = {{static_cast<double>(x), static_cast<double>(y)}};
+        frame.curves.push_back(std::move(curve));
+      }
+    }
+  }
+  return frame;
+}
+
+}  // namespace thermedge::eval

@@ -1,0 +1,102 @@
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "thermedge/eval/curves.hpp"
+#include "thermedge/limits.hpp"
+
+namespace thermedge::eval {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr double kFarthestPx = 1e6;  // a coordinate beyond this is no place in a frame
+
+tl::unexpected<Error> wrong(const std::string& name, const std::string& what) {
+  return failure(ErrorCode::kBadData, name + ": " + what);
+}
+
+// An absent or null value leaves `field` as it is.
+bool take_number(const Json& object, const char* key, double& field) {
+  const auto entry = object.find(key);
+  if (entry == object.end() || entry->is_null()) {
+    return true;
+  }
+  field = entry->is_number() ? entry->get<double>() : 0;
+  return entry->is_number() && std::isfinite(field) && field >= 0;
+}
+
+bool take_side(const Json& object, const char* key, int& field) {
+  const auto entry = object.find(key);
+  if (entry == object.end() || !entry->is_number_integer()) {
+    return false;
+  }
+  const auto value = entry->get<std::int64_t>();
+  field = static_cast<int>(value);
+  return value >= 1 && value <= Limits{}.max_side_px;
+}
+
+bool take_points(const Json& edge, std::vector<Point>& points) {
+  const auto entry = edge.find("points");
+  if (entry == edge.end() || !entry->is_array()) {
+    return false;
+  }
+  points.reserve(entry->size());
+  for (const Json& point : *entry) {
+    if (!point.is_array() || point.size() != 2 || !point[0].is_number() || !point[1].is_number()) {
+      return false;
+    }
+    points.push_back({point[0].get<double>(), point[1].get<double>()});
+    if (!(std::abs(points.back().x) <= kFarthestPx && std::abs(points.back().y) <= kFarthestPx)) {
+      return false;
+    }
+  }
+  return true;
+}
+
+Result<Curve> parse_curve(const Json& edge, const std::string& name) {
+  Curve curve;
+  if (!edge.is_object() || !take_points(edge, curve.points)) {
+    return wrong(name, "points should be a list of [x, y] in px");
+  }
+  if (!take_number(edge, "contrast_counts", curve.contrast_counts)) {
+    return wrong(name, "contrast_counts should be a number from 0 up, or null");
+  }
+  if (const auto closed = edge.find("closed"); closed != edge.end()) {
+    if (!closed->is_boolean()) {
+      return wrong(name, "closed should be true or false");
+    }
+    curve.closed = closed->get<bool>();
+  }
+  return curve;
+}
+
+}  // namespace
+
+Result<CurveFrame> parse_curves(std::string_view json, const std::string& name) {
+  const Json document = Json::parse(json, nullptr, false);
+  if (!document.is_object()) {
+    return wrong(name, "should be a JSON object with width, height and edges");
+  }
+  CurveFrame frame;
+  if (!take_side(document, "width", frame.width) || !take_side(document, "height", frame.height)) {
+    return wrong(name, "width and height should be whole numbers of px, 1 to " +
+                           std::to_string(Limits{}.max_side_px));
+  }
+  if (!take_number(document, "sigma_counts", frame.sigma_counts)) {
+    return wrong(name, "sigma_counts should be a number from 0 up, or null");
+  }
+  const auto edges = document.find("edges");
+  if (edges == document.end() || !edges->is_array()) {
+    return wrong(name, "edges should be a list");
+  }
+  for (std::size_t i = 0; i < edges->size(); ++i) {
+    auto curve = parse_curve((*edges)[i], name + ": edge " + std::to_string(i));
+    if (!curve) {
+      return tl::unexpected(std::move(curve.error()));
+    }
+    frame.curves.push_back(std::move(*curve));
+  }
+  return frame;
+}
+
+}  // namespace thermedge::eval
