@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "by_strength.hpp"
 #include "size_text.hpp"
 #include "thermedge/eval/matching.hpp"
 #include "thermedge/eval/thinning.hpp"
@@ -110,14 +111,11 @@ std::vector<MatchCounts> Counter::thin_each(std::span<const int> thresholds) con
 }
 
 std::vector<MatchCounts> Counter::nested(std::span<const int> thresholds) const {
-  std::vector<std::int32_t> strongest_first(pixels_.size());
-  std::iota(strongest_first.begin(), strongest_first.end(), 0);
-  const auto strength_of = [&](std::int32_t number) {
-    const Pixel pixel = pixels_[static_cast<std::size_t>(number)];
-    return strength_(pixel.x, pixel.y);
-  };
-  std::stable_sort(strongest_first.begin(), strongest_first.end(),
-                   [&](std::int32_t a, std::int32_t b) { return strength_of(a) > strength_of(b); });
+  std::vector<std::uint8_t> weakness;  // so that equally strong pixels stay in reading order
+  for (const Pixel pixel : pixels_) {
+    weakness.push_back(static_cast<std::uint8_t>(255 - strength_(pixel.x, pixel.y)));
+  }
+  const std::vector<std::int32_t> strongest_first = weakest_first(weakness);
 
   std::vector<std::int64_t> truth_gains(pixels_.size(), 0);
   std::vector<std::uint8_t> hits(pixels_.size(), 0);
@@ -138,7 +136,9 @@ std::vector<MatchCounts> Counter::nested(std::span<const int> thresholds) const 
   sum.truth = truth_count();
   for (std::size_t t = thresholds.size(); t-- > 0;) {
     for (auto i = static_cast<std::size_t>(sum.found);
-         i < pixels_.size() && strength_of(strongest_first[i]) >= thresholds[t]; ++i) {
+         i < pixels_.size() &&
+         255 - weakness[static_cast<std::size_t>(strongest_first[i])] >= thresholds[t];
+         ++i) {
       sum += {truth_gains[i], 0, hits[i], 1};
     }
     counts[t] = sum;

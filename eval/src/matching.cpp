@@ -18,9 +18,14 @@ struct Offset {
 
 std::size_t at(std::int32_t index) { return static_cast<std::size_t>(index); }
 
+// How far an offset goes along an axis; never farther than the map is large.
+int reach_of(double radius_px, ImageView<const std::uint8_t> map) {
+  return static_cast<int>(
+      std::min<double>(std::floor(radius_px), std::max(map.width(), map.height())));
+}
+
 // The offsets within the radius, nearest first, then in reading order.
-std::vector<Offset> disc(double radius_px, int largest) {
-  const int reach = static_cast<int>(std::min<double>(std::floor(radius_px), largest));
+std::vector<Offset> disc(double radius_px, int reach) {
   std::vector<Offset> offsets;
   for (int dy = -reach; dy <= reach; ++dy) {
     for (int dx = -reach; dx <= reach; ++dx) {
@@ -100,22 +105,27 @@ class GrowingMatching {
 
 MatchGraph::MatchGraph(std::span<const Pixel> found, ImageView<const std::uint8_t> truth,
                        double radius_px) {
-  const std::vector<Offset> offsets = disc(radius_px, std::max(truth.width(), truth.height()));
+  const std::vector<Offset> offsets = disc(radius_px, reach_of(radius_px, truth));
   rings_ = offsets.empty() ? 0 : offsets.back().ring + 1;
-  Image<std::int32_t> numbers(truth.width(), truth.height());
+  // Numbers of the true pixels, with a margin so that no offset leads outside.
+  const int margin = reach_of(radius_px, truth);
+  Image<std::int32_t> numbers(truth.width() + 2 * margin, truth.height() + 2 * margin);
+  fill_pixels(numbers.view(), kNone);
   for (int y = 0; y < truth.height(); ++y) {
     for (int x = 0; x < truth.width(); ++x) {
-      numbers(x, y) = truth(x, y) != 0 ? static_cast<std::int32_t>(truth_count_++) : kNone;
+      if (truth(x, y) != 0) {
+        numbers(x + margin, y + margin) = static_cast<std::int32_t>(truth_count_++);
+      }
     }
   }
   starts_.reserve(found.size() + 1);
   starts_.push_back(0);
   for (const Pixel pixel : found) {
+    const std::int32_t* centre = &numbers(pixel.x + margin, pixel.y + margin);
     for (const Offset& offset : offsets) {
-      const int x = pixel.x + offset.dx;
-      const int y = pixel.y + offset.dy;
-      if (truth.contains(x, y) && numbers(x, y) != kNone) {
-        partners_.push_back({numbers(x, y), offset.ring});
+      const std::int32_t number = centre[offset.dy * numbers.stride() + offset.dx];
+      if (number != kNone) {
+        partners_.push_back({number, offset.ring});
       }
     }
     starts_.push_back(partners_.size());

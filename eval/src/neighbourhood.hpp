@@ -49,8 +49,10 @@ class Neighbourhoods {
   [[nodiscard]] std::int32_t neighbour(std::int32_t place, int k) const {
     return place + steps_[static_cast<std::size_t>(k)];
   }
-  [[nodiscard]] int x(std::int32_t place) const { return place % stride_ - 1; }
-  [[nodiscard]] int y(std::int32_t place) const { return place / stride_ - 1; }
+  // Row of the map, 1 where set.
+  [[nodiscard]] const std::uint8_t* row(int y) const {
+    return set_.data() + index((y + 1) * stride_ + 1);
+  }
 
   void remove(std::int32_t place) {
     set_[index(place)] = 0;

@@ -1,8 +1,9 @@
 #include "thermedge/eval/thinning.hpp"
 
 #include <algorithm>
-#include <utility>
+#include <iterator>
 
+#include "by_strength.hpp"
 #include "neighbourhood.hpp"
 
 namespace thermedge::eval {
@@ -38,14 +39,23 @@ constexpr Removable make_removable() {
 
 constexpr Removable kRemovable = make_removable();
 
+// Whether a pixel can go alone: no end, and no connection is broken.
+constexpr std::array<bool, 256> make_spare() {
+  std::array<bool, 256> table{};
+  for (unsigned code = 0; code < 256; ++code) {
+    table[code] = std::popcount(code) >= 2 && crossings(code) == 1;
+  }
+  return table;
+}
+
+constexpr std::array<bool, 256> kSpare = make_spare();
+
 // A pass only has to look at pixels whose neighbours changed since it last saw them.
 class Thinner {
  public:
   explicit Thinner(Neighbourhoods& pixels) : pixels_(pixels), waiting_(pixels.size(), 0) {
-    for (const int pass : {0, 1}) {
-      for (const std::int32_t place : pixels.places()) {
-        enqueue(pass, place);
-      }
+    for (const std::int32_t place : pixels.places()) {
+      enqueue(place);
     }
   }
 
@@ -57,21 +67,23 @@ class Thinner {
   }
 
  private:
-  void enqueue(int pass, std::int32_t place) {
+  // A pixel that can't go now may be able to when its neighbours change, and is then seen again.
+  void enqueue(std::int32_t place) {
     std::uint8_t& waiting = waiting_[static_cast<std::size_t>(place)];
-    const auto bit = static_cast<std::uint8_t>(1U << pass);
-    if ((waiting & bit) == 0) {
-      waiting |= bit;
-      queues_[pass].push_back(place);
+    for (const unsigned pass : {0U, 1U}) {
+      const auto bit = static_cast<std::uint8_t>(1U << pass);
+      if ((waiting & bit) == 0 && kRemovable[pass][pixels_.code(place)]) {
+        waiting |= bit;
+        queues_[pass].push_back(place);
+      }
     }
   }
 
-  void run_pass(int pass) {
+  void run_pass(unsigned pass) {
     removed_.clear();
     for (const std::int32_t place : queues_[pass]) {
       waiting_[static_cast<std::size_t>(place)] &= static_cast<std::uint8_t>(~(1U << pass));
-      if (pixels_.is_set(place) &&
-          kRemovable[static_cast<std::size_t>(pass)][pixels_.code(place)]) {
+      if (pixels_.is_set(place) && kRemovable[pass][pixels_.code(place)]) {
         removed_.push_back(place);
       }
     }
@@ -81,9 +93,7 @@ class Thinner {
     }
     for (const std::int32_t place : removed_) {
       for (unsigned left = pixels_.code(place); left != 0; left &= left - 1) {
-        const std::int32_t neighbour = pixels_.neighbour(place, std::countr_zero(left));
-        enqueue(0, neighbour);
-        enqueue(1, neighbour);
+        enqueue(pixels_.neighbour(place, std::countr_zero(left)));
       }
     }
   }
@@ -120,29 +130,36 @@ Neighbourhoods::Neighbourhoods(ImageView<const std::uint8_t> map)
 void thin(ImageView<std::uint8_t> map) {
   Neighbourhoods pixels(map);
   Thinner(pixels).run();
-  for (const std::int32_t place : pixels.places()) {
-    map(pixels.x(place), pixels.y(place)) = pixels.is_set(place) ? 1 : 0;
+  for (int y = 0; y < map.height(); ++y) {
+    std::copy_n(pixels.row(y), map.width(), map.row(y));
   }
 }
 
 void thin_nested(ImageView<std::uint8_t> strength) {
   Neighbourhoods pixels(strength);
-  std::vector<std::int32_t> weakest_first = pixels.places();
-  const auto strength_of = [&](std::int32_t place) -> std::uint8_t& {
-    return strength(pixels.x(place), pixels.y(place));
-  };
-  std::stable_sort(weakest_first.begin(), weakest_first.end(),
-                   [&](std::int32_t a, std::int32_t b) { return strength_of(a) < strength_of(b); });
+  std::vector<std::uint8_t> strengths;
+  for (int y = 0; y < strength.height(); ++y) {
+    std::copy_if(strength.row(y), strength.row(y) + strength.width(), std::back_inserter(strengths),
+                 [](std::uint8_t value) { return value != 0; });
+  }
+  std::vector<std::int32_t> left = weakest_first(strengths);
+  std::transform(left.begin(), left.end(), left.begin(), [&](std::int32_t index) {
+    return pixels.places()[static_cast<std::size_t>(index)];
+  });
   for (bool changed = true; changed;) {
     changed = false;
-    for (const std::int32_t place : weakest_first) {
-      const unsigned code = pixels.code(place);
-      if (pixels.is_set(place) && std::popcount(code) >= 2 && crossings(code) == 1) {
+    for (const std::int32_t place : left) {
+      if (pixels.is_set(place) && kSpare[pixels.code(place)]) {
         pixels.remove(place);
-        strength_of(place) = 0;
         changed = true;
       }
     }
+  }
+  for (int y = 0; y < strength.height(); ++y) {
+    std::transform(strength.row(y), strength.row(y) + strength.width(), pixels.row(y),
+                   strength.row(y), [](std::uint8_t value, std::uint8_t set) {
+                     return static_cast<std::uint8_t>(set != 0 ? value : 0);
+                   });
   }
 }
 
