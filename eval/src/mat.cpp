@@ -47,6 +47,20 @@ bool is_matrix(const matvar_t& variable) {
          variable.class_type <= MAT_C_UINT64;
 }
 
+// A field of the first struct of an array, null where there is none. In damaged files names are
+// missing, on which the library's own search would fall over.
+const matvar_t* field(const matvar_t& array, std::string_view name) {
+  auto* mutable_array = const_cast<matvar_t*>(&array);  // matio's readers don't say const
+  const std::size_t count = Mat_VarGetNumberOfFields(mutable_array);
+  char* const* names = Mat_VarGetStructFieldnames(&array);
+  for (std::size_t i = 0; names != nullptr && i < count; ++i) {
+    if (names[i] != nullptr && names[i] == name) {
+      return Mat_VarGetStructFieldByIndex(mutable_array, i, 0);
+    }
+  }
+  return nullptr;
+}
+
 class MatReader {
  public:
   MatReader(const std::string& path, const Limits& limits) : path_(path), limits_(limits) {}
@@ -139,7 +153,9 @@ class MatReader {
                                      ? Mat_VarGetNumberOfFields(const_cast<matvar_t*>(&variable))
                                      : 1;
     const auto* children = static_cast<matvar_t* const*>(variable.data);
-    for (std::uint64_t i = 0; i < elements * fields; ++i) {
+    const std::uint64_t count =
+        std::min<std::uint64_t>(elements * fields, variable.nbytes / sizeof(matvar_t*));
+    for (std::uint64_t i = 0; i < count; ++i) {
       if (children[i] != nullptr && !add_bytes(*children[i], depth + 1, bytes)) {
         return false;
       }
@@ -165,7 +181,7 @@ class MatReader {
       if (cell == nullptr || cell->class_type != MAT_C_STRUCT || cell->data == nullptr) {
         return wrong();
       }
-      matvar_t* boundaries = Mat_VarGetStructFieldByName(cell, "Boundaries", 0);
+      const matvar_t* boundaries = field(*cell, "Boundaries");
       if (boundaries == nullptr || !is_matrix(*boundaries)) {
         return wrong();
       }

@@ -150,7 +150,7 @@ Result<std::string_view> header_text(const EncodedFile& file, std::size_t& data_
 
 Status take_type(const Header& header, const EncodedFile& file, Array& array) {
   const std::string_view type = *header.type;
-  if (type == "|u1" || type == "<u1" || type == ">u1") {
+  if (type == "|u1" || type == "<u1" || type == ">u1" || type == "|b1") {
     array.bits = 8;
   } else if (type == "<u2" || type == ">u2") {
     array.bits = 16;

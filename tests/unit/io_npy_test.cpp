@@ -25,6 +25,12 @@ TEST(NpyHeader, MayBeSpacedAndOrderedOtherwise) {
   }
 }
 
+TEST(NpyHeader, MayBeOfBooleans) {
+  EXPECT_EQ(pixels_of(decoded(npy_file("{'descr': '|b1', 'fortran_order': False, 'shape': (1, 2)}",
+                                       "\x01\x00"s))),
+            (std::vector{1, 0}));
+}
+
 TEST(NpyHeader, MayBeOfVersions1To3) {
   const std::string header = "{'descr': '>u2', 'fortran_order': False, 'shape': (1, 1), }\n";
   for (const char version : {'\1', '\2', '\3'}) {
