@@ -143,7 +143,7 @@ std::string evaluation_page(const eval::LoneEvaluation& evaluation,
   if (evaluation.pairs > 0) {
     page.heading("From each frame to the next");
     page.row("repeatability", number(evaluation.repeatability.share(), 4),
-             fmt::format("of the points again within {} px, under the best shift of up to {} px",
+             fmt::format("of the points within {} px of a point, shifted by up to {} px",
                          options.repeat_reach_px, options.most_shift_px));
   }
   add_structure(evaluation.structure, options.short_px, page);

@@ -151,8 +151,8 @@ void add_up(std::vector<FrameFigures> frames, const EvaluationOptions& options,
             Evaluation& evaluation) {
   std::vector<MapStructure> structures;
   for (FrameFigures& frame : frames) {
-    evaluation.merit.mean += frame.merit.mean / static_cast<double>(frames.size());
-    evaluation.merit.best += frame.merit.best / static_cast<double>(frames.size());
+    evaluation.merit.mean += frame.merit.mean;
+    evaluation.merit.best += frame.merit.best;
     structures.push_back(std::move(frame.structure));
     if (!frame.curves) {
       continue;
@@ -165,6 +165,8 @@ void add_up(std::vector<FrameFigures> frames, const EvaluationOptions& options,
       evaluation.curves->by_sigma += frame.curves->by_sigma;
     }
   }
+  evaluation.merit.mean /= static_cast<double>(frames.size());
+  evaluation.merit.best /= static_cast<double>(frames.size());
   evaluation.structure = summarise_structure(structures, options.short_px);
 }
 
@@ -273,9 +275,10 @@ LoneFrame look_at(const FoundEdges& found, int threshold, const EvaluationOption
 PerFrame per_frame(const std::vector<std::size_t>& values) {
   PerFrame figures;
   for (const std::size_t value : values) {
-    figures.mean += static_cast<double>(value) / static_cast<double>(values.size());
+    figures.mean += static_cast<double>(value);
     figures.most = std::max(figures.most, value);
   }
+  figures.mean /= static_cast<double>(values.size());
   return figures;
 }
 
