@@ -259,7 +259,6 @@ class Judge {
 struct LoneFrame {
   std::size_t edges = 0;
   MapStructure structure;
-  CurveFrame curves;
 };
 
 LoneFrame look_at(const FoundEdges& found, int threshold, const EvaluationOptions& options) {
@@ -267,9 +266,17 @@ LoneFrame look_at(const FoundEdges& found, int threshold, const EvaluationOption
   Image<std::uint8_t> map;
   thin_at(found.map.view(), threshold, map);
   frame.structure = measure_structure(map.view(), options.short_px);
-  frame.curves = found.curves ? *found.curves : pixels_as_curves(map.view());
   frame.edges = found.curves ? found.curves->curves.size() : frame.structure.fragments_px.size();
   return frame;
+}
+
+CurveFrame as_curves(FoundEdges found, int threshold) {
+  if (found.curves) {
+    return std::move(*found.curves);
+  }
+  Image<std::uint8_t> map;
+  thin_at(found.map.view(), threshold, map);
+  return pixels_as_curves(map.view());
 }
 
 PerFrame per_frame(const std::vector<std::size_t>& values) {
@@ -282,21 +289,24 @@ PerFrame per_frame(const std::vector<std::size_t>& values) {
   return figures;
 }
 
-void repeat(const std::vector<LoneFrame>& frames, const EvaluationOptions& options, Runner& runner,
+// Reads the frames again, two at a time, so that long sequences need not fit into memory. Frames
+// that can't be read are no part of a pair.
+void repeat(const FoundSet& found, const EvaluationOptions& options, Runner& runner,
             LoneEvaluation& evaluation) {
-  if (frames.size() < 2) {
-    return;
-  }
-  std::vector<std::optional<Repeatability>> pairs(frames.size() - 1);
-  runner.run(static_cast<int>(pairs.size()), [&](int task) {
-    const auto i = static_cast<std::size_t>(task);
-    const CurveFrame& from = frames[i].curves;
-    const CurveFrame& to = frames[i + 1].curves;
-    if (from.width == to.width && from.height == to.height) {
-      pairs[i] = best_shift(from, to, options.most_shift_px, options.repeat_reach_px).repeatability;
-    }
-  });
-  for (const auto& pair : pairs) {
+  auto pairs = for_each_frame<std::optional<Repeatability>>(
+      found, runner, found.names().size() - 1,
+      [&](std::size_t i) -> Result<std::optional<Repeatability>> {
+        auto first = found.read(i);
+        auto second = found.read(i + 1);
+        if (!first || !second || !same_size(first->map.view(), second->map.view())) {
+          return std::nullopt;
+        }
+        return best_shift(as_curves(std::move(*first), evaluation.threshold),
+                          as_curves(std::move(*second), evaluation.threshold),
+                          options.most_shift_px, options.repeat_reach_px)
+            .repeatability;
+      });
+  for (const auto& pair : take_good(std::move(pairs), evaluation.errors)) {
     if (pair) {
       ++evaluation.pairs;
       evaluation.repeatability.points += pair->points;
@@ -352,7 +362,7 @@ Result<LoneEvaluation> evaluate_alone(const FoundSet& found, const EvaluationOpt
     evaluation.edges = per_frame(edges);
     evaluation.edge_pixels = per_frame(pixels);
     evaluation.structure = summarise_structure(structures, options.short_px);
-    repeat(frames, options, runner, evaluation);
+    repeat(found, options, runner, evaluation);
     return evaluation;
   });
 }
