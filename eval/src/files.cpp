@@ -26,7 +26,7 @@ bool is_file(const std::string& path) {
   return fs::is_regular_file(path, error);
 }
 
-// The visible files in a directory for whose name `wanted` holds, sorted by the bytes of the name.
+// The visible files in a directory for whose name `wanted` holds, in natural order.
 Result<Paths> list_files(const std::string& directory,
                          const std::function<bool(const std::string&)>& wanted) {
   Paths paths;
@@ -41,9 +41,7 @@ Result<Paths> list_files(const std::string& directory,
   if (error) {
     return failure(ErrorCode::kIo, directory + ": cannot be listed: " + error.message());
   }
-  std::sort(paths.begin(), paths.end(), [](const std::string& a, const std::string& b) {
-    return io::stem_of(a) < io::stem_of(b);
-  });
+  std::sort(paths.begin(), paths.end(), io::natural_less);
   return paths;
 }
 

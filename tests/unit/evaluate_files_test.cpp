@@ -289,6 +289,15 @@ TEST(EvaluateSets, AreFoundByName) {
             directory / "truth/e: no truth there (.npz, .mat, .png, _*.png, .json)");
 }
 
+TEST(EvaluateSets, AreInNaturalOrder) {
+  const TemporaryDirectory directory;
+  for (const std::string name : {"f10.png", "f9.png", "f1.png", ".f0.png"}) {
+    write_map(directory / name, 2, 2, 0);
+  }
+  EXPECT_EQ(FoundSet::open(directory.path().string())->names(),
+            (std::vector<std::string>{"f1", "f9", "f10"}));
+}
+
 TEST(EvaluateSets, JsonLinesHoldFramesInOrder) {
   const TemporaryDirectory directory;
   test::write_text(directory / "t.jsonl",

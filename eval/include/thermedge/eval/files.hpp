@@ -49,7 +49,7 @@ class FoundSet {
  public:
   // Errors: nothing there, or PNG and JSON side by side.
   [[nodiscard]] static Result<FoundSet> open(const std::string& path, const Limits& limits = {});
-  // Base names in the order of the bytes; of JSON lines "0", "1" ...
+  // Base names in natural order (2 before 10); of JSON lines "0", "1" ...
   [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
   [[nodiscard]] bool has_curves() const { return curves_; }
   [[nodiscard]] Result<FoundEdges> read(std::size_t index) const;
