@@ -34,6 +34,7 @@ class Counter {
     const double radius_px = max_distance * std::hypot(strength.width(), strength.height());
     const auto graphs_of = [&](const std::vector<Image<std::uint8_t>>& maps) {
       std::vector<MatchGraph> graphs;
+      graphs.reserve(maps.size());
       for (const auto& map : maps) {
         graphs.emplace_back(pixels_, map.view(), radius_px);
       }
@@ -112,6 +113,7 @@ std::vector<MatchCounts> Counter::thin_each(std::span<const int> thresholds) con
 
 std::vector<MatchCounts> Counter::nested(std::span<const int> thresholds) const {
   std::vector<std::uint8_t> weakness;  // so that equally strong pixels stay in reading order
+  weakness.reserve(pixels_.size());
   for (const Pixel pixel : pixels_) {
     weakness.push_back(static_cast<std::uint8_t>(255 - strength_(pixel.x, pixel.y)));
   }

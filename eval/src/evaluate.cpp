@@ -1,11 +1,8 @@
 #include "thermedge/eval/evaluate.hpp"
 
-#include <algorithm>
-#include <array>
-#include <bitset>
 #include <cmath>
 
-#include "io/guard.hpp"
+#include "frames.hpp"
 
 namespace thermedge::eval {
 namespace {
@@ -17,97 +14,6 @@ const std::vector<double>& count_limits() {
 const std::vector<double>& sigma_limits() {
   static const std::vector<double> limits{0, 1, 2, 3, 4, 6, 8, 12, 20};
   return limits;
-}
-
-Status check(const EvaluationOptions& options) {
-  const auto range = [](const char* name, const char* values) -> Status {
-    return failure(ErrorCode::kInvalidArgument, std::string(name) + " should be " + values);
-  };
-  if (!(options.count.max_distance >= 0 && options.count.max_distance <= 0.1)) {
-    return range("max_distance", "0 to 0.1 of the diagonal");
-  }
-  if (options.thresholds < 1 || options.thresholds > 254) {
-    return range("thresholds", "1 to 254");
-  }
-  if (options.at < 0 || options.at > 255) {
-    return range("at", "1 to 255, or 0 for a sweep");
-  }
-  if (options.short_px < 1 || options.short_px > 10000) {
-    return range("short_px", "1 to 10000");
-  }
-  if (!(options.sigma_counts >= 0 && options.sigma_counts <= 65535)) {
-    return range("sigma_counts", "0 to 65535");
-  }
-  if (!(options.repeat_reach_px > 0 && options.repeat_reach_px <= 100)) {
-    return range("repeat_reach_px", "above 0, up to 100");
-  }
-  if (options.most_shift_px < 0 || options.most_shift_px > 64) {
-    return range("most_shift_px", "0 to 64");
-  }
-  return {};
-}
-
-// The values that occur in the first few maps: whether they are binary.
-std::bitset<256> values_of(const FoundSet& found) {
-  constexpr std::size_t kLookedAt = 5;
-  std::bitset<256> values;
-  for (std::size_t i = 0; i < std::min(found.names().size(), kLookedAt); ++i) {
-    const auto edges = found.read(i);
-    for (int y = 0; edges && y < edges->map.height(); ++y) {
-      const std::uint8_t* row = edges->map.row(y);
-      std::for_each(row, row + edges->map.width(), [&](std::uint8_t value) { values.set(value); });
-    }
-  }
-  return values;
-}
-
-int highest(const std::bitset<256>& values) {
-  int value = 255;
-  while (value > 1 && !values[static_cast<std::size_t>(value)]) {
-    --value;
-  }
-  return value;
-}
-
-struct Thresholds {
-  bool binary = false;
-  std::vector<int> values;
-};
-
-Thresholds choose_thresholds(const FoundSet& found, const EvaluationOptions& options) {
-  const auto values = values_of(found);
-  Thresholds thresholds;
-  thresholds.binary = values.count() <= 2;
-  thresholds.values = options.at > 0      ? std::vector<int>{options.at}
-                      : thresholds.binary ? std::vector<int>{highest(values)}
-                                          : spread_thresholds(options.thresholds);
-  return thresholds;
-}
-
-// Runs `work(i)`, which gives a Result, for each frame. A frame that fails leaves its error in
-// place of its result.
-template <class T, class F>
-std::vector<Result<T>> for_each_frame(const FoundSet& found, Runner& runner, std::size_t count,
-                                      F&& work) {
-  std::vector<Result<T>> results(count);
-  runner.run(static_cast<int>(count), [&](int task) {
-    const auto i = static_cast<std::size_t>(task);
-    results[i] = io::without_throwing(found.names()[i], [&] { return work(i); });
-  });
-  return results;
-}
-
-template <class T>
-std::vector<T> take_good(std::vector<Result<T>> results, std::vector<Error>& errors) {
-  std::vector<T> good;
-  for (Result<T>& result : results) {
-    if (result) {
-      good.push_back(std::move(*result));
-    } else {
-      errors.push_back(std::move(result.error()));
-    }
-  }
-  return good;
 }
 
 struct FrameFigures {
@@ -231,6 +137,7 @@ class Judge {
 
   static std::vector<std::vector<MatchCounts>> counts_of(std::vector<FrameFigures>& frames) {
     std::vector<std::vector<MatchCounts>> counts;
+    counts.reserve(frames.size());
     for (FrameFigures& frame : frames) {
       counts.push_back(std::move(frame.counts));
     }
@@ -256,65 +163,6 @@ class Judge {
   Runner& runner_;
 };
 
-struct LoneFrame {
-  std::size_t edges = 0;
-  MapStructure structure;
-};
-
-LoneFrame look_at(const FoundEdges& found, int threshold, const EvaluationOptions& options) {
-  LoneFrame frame;
-  Image<std::uint8_t> map;
-  thin_at(found.map.view(), threshold, map);
-  frame.structure = measure_structure(map.view(), options.short_px);
-  frame.edges = found.curves ? found.curves->curves.size() : frame.structure.fragments_px.size();
-  return frame;
-}
-
-CurveFrame as_curves(FoundEdges found, int threshold) {
-  if (found.curves) {
-    return std::move(*found.curves);
-  }
-  Image<std::uint8_t> map;
-  thin_at(found.map.view(), threshold, map);
-  return pixels_as_curves(map.view());
-}
-
-PerFrame per_frame(const std::vector<std::size_t>& values) {
-  PerFrame figures;
-  for (const std::size_t value : values) {
-    figures.mean += static_cast<double>(value);
-    figures.most = std::max(figures.most, value);
-  }
-  figures.mean /= static_cast<double>(values.size());
-  return figures;
-}
-
-// Reads the frames again, two at a time, so that long sequences need not fit into memory. Frames
-// that can't be read are no part of a pair.
-void repeat(const FoundSet& found, const EvaluationOptions& options, Runner& runner,
-            LoneEvaluation& evaluation) {
-  auto pairs = for_each_frame<std::optional<Repeatability>>(
-      found, runner, found.names().size() - 1,
-      [&](std::size_t i) -> Result<std::optional<Repeatability>> {
-        auto first = found.read(i);
-        auto second = found.read(i + 1);
-        if (!first || !second || !same_size(first->map.view(), second->map.view())) {
-          return std::nullopt;
-        }
-        return best_shift(as_curves(std::move(*first), evaluation.threshold),
-                          as_curves(std::move(*second), evaluation.threshold),
-                          options.most_shift_px, options.repeat_reach_px)
-            .repeatability;
-      });
-  for (const auto& pair : take_good(std::move(pairs), evaluation.errors)) {
-    if (pair) {
-      ++evaluation.pairs;
-      evaluation.repeatability.points += pair->points;
-      evaluation.repeatability.repeated += pair->repeated;
-    }
-  }
-}
-
 }  // namespace
 
 Result<Evaluation> evaluate(const FoundSet& found, const TruthSet& truth,
@@ -327,44 +175,6 @@ Result<Evaluation> evaluate(const FoundSet& found, const TruthSet& truth,
   }
   return io::without_throwing("evaluation",
                               [&] { return Judge(found, truth, options, runner).run(); });
-}
-
-Result<LoneEvaluation> evaluate_alone(const FoundSet& found, const EvaluationOptions& options,
-                                      Runner& runner) {
-  if (Status status = check(options); !status) {
-    return tl::unexpected(status.error());
-  }
-  return io::without_throwing("evaluation", [&]() -> Result<LoneEvaluation> {
-    LoneEvaluation evaluation;
-    // Without truth there is no best threshold; every pixel of a strength map counts.
-    const Thresholds thresholds = choose_thresholds(found, options);
-    evaluation.threshold = thresholds.values.size() > 1 ? 1 : thresholds.values.front();
-    std::vector<LoneFrame> frames = take_good(
-        for_each_frame<LoneFrame>(found, runner, found.names().size(),
-                                  [&](std::size_t i) -> Result<LoneFrame> {
-                                    return found.read(i).map([&](const FoundEdges& edges) {
-                                      return look_at(edges, evaluation.threshold, options);
-                                    });
-                                  }),
-        evaluation.errors);
-    if (frames.empty()) {
-      return tl::unexpected(evaluation.errors.front());
-    }
-    evaluation.frames = frames.size();
-    std::vector<std::size_t> edges;
-    std::vector<std::size_t> pixels;
-    std::vector<MapStructure> structures;
-    for (LoneFrame& frame : frames) {
-      edges.push_back(frame.edges);
-      pixels.push_back(frame.structure.edge_pixels);
-      structures.push_back(std::move(frame.structure));
-    }
-    evaluation.edges = per_frame(edges);
-    evaluation.edge_pixels = per_frame(pixels);
-    evaluation.structure = summarise_structure(structures, options.short_px);
-    repeat(found, options, runner, evaluation);
-    return evaluation;
-  });
 }
 
 }  // namespace thermedge::eval

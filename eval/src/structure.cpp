@@ -63,8 +63,9 @@ class StructureMeter {
     for (const std::int32_t seed : pixels_.places()) {
       group_.clear();
       take(seed);
-      for (std::size_t i = 0; i < group_.size(); ++i) {
-        for_each_neighbour(group_[i], take);
+      std::size_t next = 0;
+      while (next < group_.size()) {  // grows meanwhile
+        for_each_neighbour(group_[next++], take);
       }
       if (!group_.empty()) {
         visit();

@@ -1,0 +1,50 @@
+// What judging with and without truth have in common.
+#pragma once
+
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "io/guard.hpp"
+#include "thermedge/eval/evaluate.hpp"
+
+namespace thermedge::eval {
+
+// Names the first option that is out of range.
+[[nodiscard]] Status check(const EvaluationOptions& options);
+
+struct Thresholds {
+  bool binary = false;
+  std::vector<int> values;
+};
+
+// The one asked for; the upper value of binary maps; or a sweep.
+[[nodiscard]] Thresholds choose_thresholds(const FoundSet& found, const EvaluationOptions& options);
+
+// Runs `work(i)`, which gives a Result, for each frame. A frame that fails leaves its error in
+// place of its result.
+template <class T, class F>
+std::vector<Result<T>> for_each_frame(const FoundSet& found, Runner& runner, std::size_t count,
+                                      F&& work) {
+  std::vector<Result<T>> results(count);
+  runner.run(static_cast<int>(count), [&](int task) {
+    const auto i = static_cast<std::size_t>(task);
+    results[i] = io::without_throwing(found.names()[i], [&] { return work(i); });
+  });
+  return results;
+}
+
+template <class T>
+std::vector<T> take_good(std::vector<Result<T>> results, std::vector<Error>& errors) {
+  std::vector<T> good;
+  for (Result<T>& result : results) {
+    if (result) {
+      good.push_back(std::move(*result));
+    } else {
+      errors.push_back(std::move(result.error()));
+    }
+  }
+  return good;
+}
+
+}  // namespace thermedge::eval
