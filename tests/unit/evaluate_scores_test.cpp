@@ -86,6 +86,12 @@ TEST(Scores, OisTakesEachFrameAtItsBest) {
   EXPECT_NEAR(scores.ois, f_measure(1.0, 0.9), 1e-12);
 }
 
+TEST(Scores, TakeTheFirstOfEquallyGoodThresholds) {
+  const std::vector<std::vector<MatchCounts>> counts{
+      {{5, 5, 5, 10}, {5, 5, 5, 5}, {5, 5, 5, 5}, {1, 5, 1, 1}}};
+  EXPECT_EQ(score(counts, std::vector<int>{10, 20, 40, 80}).threshold, 20);
+}
+
 TEST(Scores, OfNothing) {
   const std::vector<std::vector<MatchCounts>> counts{{MatchCounts{}, MatchCounts{}}};
   const Scores scores = score(counts, std::vector<int>{10, 20});
