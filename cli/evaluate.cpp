@@ -68,6 +68,7 @@ int EvaluateCommand::run() {
     return report.fail({ErrorCode::kInvalidArgument, "--empty: empty scenes have no GT"});
   }
   options.count.thin = !no_thin;
+  options.progress = [&report](std::size_t done, std::size_t all) { report.progress(done, all); };
   const auto set = eval::FoundSet::open(found);
   const Result<std::string> text = set.and_then([&](const eval::FoundSet& opened) {
     return truth.empty() ? alone(opened, report) : with_truth(opened, report);

@@ -21,7 +21,7 @@ double share(std::int64_t part, std::int64_t whole) {
 class Counter {
  public:
   Counter(ImageView<const std::uint8_t> strength, const TruthMaps& truth, int lowest,
-          double max_distance)
+          const CountOptions& options)
       : strength_(strength) {
     for (int y = 0; y < strength.height(); ++y) {
       for (int x = 0; x < strength.width(); ++x) {
@@ -31,7 +31,7 @@ class Counter {
         }
       }
     }
-    const double radius_px = max_distance * std::hypot(strength.width(), strength.height());
+    const double radius_px = match_radius_px(options, strength.width(), strength.height());
     const auto graphs_of = [&](const std::vector<Image<std::uint8_t>>& maps) {
       std::vector<MatchGraph> graphs;
       graphs.reserve(maps.size());
@@ -181,6 +181,13 @@ MatchCounts& MatchCounts::operator+=(const MatchCounts& other) {
   return *this;
 }
 
+// The square root is rounded correctly everywhere, hypot is not.
+double match_radius_px(const CountOptions& options, int width, int height) {
+  const double w = width;
+  const double h = height;
+  return options.max_distance * std::sqrt(w * w + h * h);
+}
+
 void thin_at(ImageView<const std::uint8_t> strength, double threshold, Image<std::uint8_t>& map) {
   map.resize(strength.width(), strength.height());
   for (int y = 0; y < strength.height(); ++y) {
@@ -202,13 +209,12 @@ Result<std::vector<MatchCounts>> count_matches(ImageView<const std::uint8_t> str
     return std::vector<MatchCounts>{};
   }
   if (options.thin) {
-    return Counter(strength, truth, thresholds.front(), options.max_distance).thin_each(thresholds);
+    return Counter(strength, truth, thresholds.front(), options).thin_each(thresholds);
   }
   Image<std::uint8_t> thinned(strength.width(), strength.height());
   copy_pixels(strength, thinned.view());
   thin_nested(thinned);
-  return Counter(thinned.view(), truth, thresholds.front(), options.max_distance)
-      .nested(thresholds);
+  return Counter(thinned.view(), truth, thresholds.front(), options).nested(thresholds);
 }
 
 }  // namespace thermedge::eval

@@ -1,7 +1,5 @@
 #include "thermedge/eval/evaluate.hpp"
 
-#include <cmath>
-
 #include "frames.hpp"
 
 namespace thermedge::eval {
@@ -25,7 +23,7 @@ struct FrameFigures {
 
 CurveFigures compare_curves(const CurveFrame& found, const CurveFrame& truth,
                             const EvaluationOptions& options) {
-  const double reach_px = options.count.max_distance * std::hypot(truth.width, truth.height);
+  const double reach_px = match_radius_px(options.count, truth.width, truth.height);
   CurveFigures figures{localise(found, truth, reach_px), ContrastRecall(count_limits()),
                        ContrastRecall(sigma_limits())};
   figures.by_counts.add(found, truth, reach_px, 1);
@@ -117,7 +115,8 @@ class Judge {
   template <class F>
   std::vector<Result<FrameFigures>> for_each(F&& compare) {
     return for_each_frame<FrameFigures>(
-        found_, runner_, found_.names().size(), [&](std::size_t i) -> Result<FrameFigures> {
+        found_, runner_, options_.progress, found_.names().size(),
+        [&](std::size_t i) -> Result<FrameFigures> {
           const std::string& name = found_.names()[i];
           const auto found = found_.read(i);
           if (!found) {

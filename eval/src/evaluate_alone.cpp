@@ -43,7 +43,7 @@ PerFrame per_frame(const std::vector<std::size_t>& values) {
 void repeat(const FoundSet& found, const EvaluationOptions& options, Runner& runner,
             LoneEvaluation& evaluation) {
   auto pairs = for_each_frame<std::optional<Repeatability>>(
-      found, runner, found.names().size() - 1,
+      found, runner, options.progress, found.names().size() - 1,
       [&](std::size_t i) -> Result<std::optional<Repeatability>> {
         auto first = found.read(i);
         auto second = found.read(i + 1);
@@ -77,7 +77,7 @@ Result<LoneEvaluation> evaluate_alone(const FoundSet& found, const EvaluationOpt
     const Thresholds thresholds = choose_thresholds(found, options);
     evaluation.threshold = thresholds.values.size() > 1 ? 1 : thresholds.values.front();
     std::vector<LoneFrame> frames = take_good(
-        for_each_frame<LoneFrame>(found, runner, found.names().size(),
+        for_each_frame<LoneFrame>(found, runner, options.progress, found.names().size(),
                                   [&](std::size_t i) -> Result<LoneFrame> {
                                     return found.read(i).map([&](const FoundEdges& edges) {
                                       return look_at(edges, evaluation.threshold, options);

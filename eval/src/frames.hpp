@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <mutex>
 #include <utility>
 #include <vector>
 
@@ -24,12 +25,18 @@ struct Thresholds {
 // Runs `work(i)`, which gives a Result, for each frame. A frame that fails leaves its error in
 // place of its result.
 template <class T, class F>
-std::vector<Result<T>> for_each_frame(const FoundSet& found, Runner& runner, std::size_t count,
-                                      F&& work) {
+std::vector<Result<T>> for_each_frame(const FoundSet& found, Runner& runner,
+                                      const Progress& progress, std::size_t count, F&& work) {
   std::vector<Result<T>> results(count);
+  std::mutex mutex;
+  std::size_t done = 0;
   runner.run(static_cast<int>(count), [&](int task) {
     const auto i = static_cast<std::size_t>(task);
     results[i] = io::without_throwing(found.names()[i], [&] { return work(i); });
+    if (progress) {
+      const std::lock_guard lock(mutex);
+      progress(++done, count);
+    }
   });
   return results;
 }

@@ -77,6 +77,19 @@ TEST_F(EvaluationProperty, TruthItselfIsPerfect) {
   EXPECT_EQ(result->merit.mean, 1);
 }
 
+TEST_F(EvaluationProperty, TellsItsProgress) {
+  for (const auto& runner : test::all_runners()) {
+    std::vector<std::size_t> done;
+    EvaluationOptions options;
+    options.progress = [&](std::size_t frames, std::size_t all) {
+      EXPECT_EQ(all, 7U);
+      done.push_back(frames);
+    };
+    ASSERT_TRUE(evaluate(found(), truth(), options, *runner));
+    EXPECT_EQ(done, (std::vector<std::size_t>{1, 2, 3, 4, 5, 6, 7, 1, 2, 3, 4, 5, 6, 7}));
+  }
+}
+
 // More pixels never lower the recall of nested maps, and one-to-one pairs never exceed either side.
 TEST_F(EvaluationProperty, CountsAreConsistent) {
   const std::vector<int> thresholds = spread_thresholds(40);

@@ -43,6 +43,9 @@ struct CountOptions {
                      // strength, so that one pass serves all thresholds
 };
 
+// The largest distance of a pair in a frame of this size, px.
+[[nodiscard]] double match_radius_px(const CountOptions& options, int width, int height);
+
 // Counts for each of the thresholds (rising, 1..255): pixels of at least that strength are found.
 // Errors: a size that differs, no annotators. Thread-safe.
 // Source: Martin, Fowlkes & Malik (2004) with a largest matching instead of one of least cost.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,6 +15,10 @@
 
 namespace thermedge::eval {
 
+// Told after each frame how many are done, of how many; one call at a time, from any thread. A
+// sweep goes over the frames twice.
+using Progress = std::function<void(std::size_t done, std::size_t all)>;
+
 struct EvaluationOptions {
   CountOptions count;
   int thresholds = 99;      // of a sweep over strength maps, 1..254
@@ -22,6 +27,7 @@ struct EvaluationOptions {
   double sigma_counts = 0;  // noise of the frames, for recall over contrast; 0: as the results say
   double repeat_reach_px = 1;  // how far from its place a point counts as found again, px, 0..100
   int most_shift_px = 4;       // whole-pixel shifts that are tried between two frames, 0..64
+  Progress progress;           // may be empty
 };
 
 // Of results with curves against truth with curves.
