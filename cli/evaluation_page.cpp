@@ -105,6 +105,11 @@ void add_curves(const eval::CurveFigures& curves, Page& page) {
   page.row("RMS", number(curves.localisation.rms_px(), 4), "px");
   page.row("mean", number(curves.localisation.mean_px(), 4),
            "px, positive: right of the true edge's walking direction");
+  if (curves.repeatability.found_px > 0) {
+    page.heading("From each frame to the next");
+    page.row("repeatability", number(curves.repeatability.share(), 4),
+             "of the true edges that were found are found again, by length");
+  }
   add_table(curves.by_counts, "counts", page);
   add_table(curves.by_sigma, "units of the noise", page);
 }

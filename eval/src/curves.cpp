@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace thermedge::eval {
 namespace {
@@ -42,6 +43,25 @@ void for_each_piece(const Curve& curve, F&& visit) {
       visit(between(from, to, (i + 0.5) / pieces), length / pieces);
     }
   });
+}
+
+struct Lengths {
+  double true_px = 0;
+  double found_px = 0;
+};
+
+// Of a true curve, and of what lies within reach of the found ones.
+Lengths measure(const Curve& curve, const NearestOnCurves& found) {
+  Lengths lengths;
+  for_each_piece(curve, [&](Point middle, double length_px) {
+    lengths.true_px += length_px;
+    lengths.found_px += found.is_near(middle) ? length_px : 0;
+  });
+  return lengths;
+}
+
+bool mostly_found(const EdgeShare& edge) {
+  return edge.found_px > 0 && edge.found_px >= edge.true_px / 2;
 }
 
 template <class F>
@@ -210,10 +230,9 @@ void ContrastRecall::add(const CurveFrame& found, const CurveFrame& truth, doubl
       continue;
     }
     const auto bin = static_cast<std::size_t>(above - limits.begin() - 1);
-    for_each_piece(curve, [&](Point middle, double length_px) {
-      true_px[bin] += length_px;
-      found_px[bin] += there.is_near(middle) ? length_px : 0;
-    });
+    const Lengths lengths = measure(curve, there);
+    true_px[bin] += lengths.true_px;
+    found_px[bin] += lengths.found_px;
   }
 }
 
@@ -258,6 +277,49 @@ ShiftedRepeatability best_shift(const CurveFrame& from, const CurveFrame& to, in
     }
   }
   return best;
+}
+
+std::vector<EdgeShare> found_by_id(const CurveFrame& found, const CurveFrame& truth,
+                                   double reach_px) {
+  const NearestOnCurves there(found.curves, reach_px);
+  std::map<std::int64_t, EdgeShare> edges;
+  for (const Curve& curve : truth.curves) {
+    if (curve.id >= 0) {
+      const Lengths lengths = measure(curve, there);
+      EdgeShare& edge = edges[curve.id];
+      edge.id = curve.id;
+      edge.true_px += lengths.true_px;
+      edge.found_px += lengths.found_px;
+    }
+  }
+  std::vector<EdgeShare> shares;
+  shares.reserve(edges.size());
+  for (const auto& [id, edge] : edges) {
+    shares.push_back(edge);
+  }
+  return shares;
+}
+
+double EdgeRepeatability::share() const { return found_px > 0 ? again_px / found_px : kNan; }
+
+EdgeRepeatability& EdgeRepeatability::operator+=(const EdgeRepeatability& other) {
+  found_px += other.found_px;
+  again_px += other.again_px;
+  return *this;
+}
+
+EdgeRepeatability repeatability_by_id(std::span<const EdgeShare> from,
+                                      std::span<const EdgeShare> to) {
+  EdgeRepeatability result;
+  auto next = to.begin();
+  for (const EdgeShare& edge : from) {
+    next = std::find_if(next, to.end(), [&](const EdgeShare& e) { return e.id >= edge.id; });
+    if (next != to.end() && next->id == edge.id && mostly_found(edge)) {
+      result.found_px += edge.true_px;
+      result.again_px += mostly_found(*next) ? edge.true_px : 0;
+    }
+  }
+  return result;
 }
 
 CurveFrame pixels_as_curves(ImageView<const std::uint8_t> map) {

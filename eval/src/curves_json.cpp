@@ -61,11 +61,17 @@ Result<Curve> parse_curve(const Json& edge, const std::string& name) {
   if (!take_number(edge, "contrast_counts", curve.contrast_counts)) {
     return wrong(name, "contrast_counts should be a number from 0 up, or null");
   }
-  if (const auto closed = edge.find("closed"); closed != edge.end()) {
+  if (const auto closed = edge.find("closed"); closed != edge.end() && !closed->is_null()) {
     if (!closed->is_boolean()) {
       return wrong(name, "closed should be true or false");
     }
     curve.closed = closed->get<bool>();
+  }
+  if (const auto id = edge.find("id"); id != edge.end() && !id->is_null()) {
+    if (!id->is_number_integer() || id->get<std::int64_t>() < 0) {
+      return wrong(name, "id should be a whole number from 0 up, or null");
+    }
+    curve.id = id->get<std::int64_t>();
   }
   return curve;
 }

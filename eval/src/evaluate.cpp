@@ -19,19 +19,22 @@ struct FrameFigures {
   Merit merit;
   MapStructure structure;
   std::optional<CurveFigures> curves;
+  std::vector<EdgeShare> edges;  // of the truth, with curves
 };
 
-CurveFigures compare_curves(const CurveFrame& found, const CurveFrame& truth,
-                            const EvaluationOptions& options) {
+void compare_curves(const CurveFrame& found, const CurveFrame& truth,
+                    const EvaluationOptions& options, FrameFigures& frame) {
   const double reach_px = match_radius_px(options.count, truth.width, truth.height);
-  CurveFigures figures{localise(found, truth, reach_px), ContrastRecall(count_limits()),
-                       ContrastRecall(sigma_limits())};
+  frame.edges = found_by_id(found, truth, reach_px);
+  CurveFigures& figures = frame.curves.emplace(CurveFigures{localise(found, truth, reach_px),
+                                                            ContrastRecall(count_limits()),
+                                                            ContrastRecall(sigma_limits()),
+                                                            {}});
   figures.by_counts.add(found, truth, reach_px, 1);
   const double sigma = options.sigma_counts > 0 ? options.sigma_counts : found.sigma_counts;
   if (sigma > 0) {
     figures.by_sigma.add(found, truth, reach_px, sigma);
   }
-  return figures;
 }
 
 void judge_at(double threshold, const FoundEdges& found, const TrueEdges& truth,
@@ -41,7 +44,7 @@ void judge_at(double threshold, const FoundEdges& found, const TrueEdges& truth,
   figures.merit = pratt_merit(map.view(), truth.maps.annotators);
   figures.structure = measure_structure(map.view(), options.short_px);
   if (found.curves && truth.curves) {
-    figures.curves = compare_curves(*found.curves, *truth.curves, options);
+    compare_curves(*found.curves, *truth.curves, options, figures);
   }
 }
 
@@ -68,6 +71,9 @@ void add_up(std::vector<FrameFigures> frames, const EvaluationOptions& options,
       evaluation.curves->by_counts += frame.curves->by_counts;
       evaluation.curves->by_sigma += frame.curves->by_sigma;
     }
+  }
+  for (std::size_t i = 1; evaluation.curves && i < frames.size(); ++i) {
+    evaluation.curves->repeatability += repeatability_by_id(frames[i - 1].edges, frames[i].edges);
   }
   evaluation.merit.mean /= static_cast<double>(frames.size());
   evaluation.merit.best /= static_cast<double>(frames.size());

@@ -39,6 +39,7 @@ Json to_json(const CurveFigures& curves) {
   return {{"points", curves.localisation.points},
           {"rms_px", number(curves.localisation.rms_px())},
           {"mean_px", number(curves.localisation.mean_px())},
+          {"repeatability", number(curves.repeatability.share())},
           {"recall_by_contrast_counts", to_json(curves.by_counts)},
           {"recall_by_contrast_sigma", to_json(curves.by_sigma)}};
 }

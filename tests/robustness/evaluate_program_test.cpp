@@ -23,7 +23,8 @@ std::string circle_json(double radius, double contrast) {
              {"width", 80},
              {"height", 60},
              {"sigma_counts", 5},
-             {"edges", {{{"points", points}, {"contrast_counts", contrast}, {"closed", true}}}}}
+             {"edges",
+              {{{"points", points}, {"contrast_counts", contrast}, {"closed", true}, {"id", 3}}}}}
              .dump() +
          "\n";
 }
@@ -94,6 +95,7 @@ TEST_F(EvaluateProgram, MeasuresPositionsOfCurves) {
   EXPECT_NEAR(json["curves"]["rms_px"], 0.25, 0.01);
   EXPECT_NEAR(json["curves"]["mean_px"], -0.25, 0.01);  // outside: left of clockwise
   EXPECT_EQ(json["recall"], 1);
+  EXPECT_EQ(json["curves"]["repeatability"], 1);
   double found = 0;
   for (const auto& bin : json["curves"]["recall_by_contrast_counts"]) {
     if (bin["from"] == 20) {

@@ -179,6 +179,42 @@ TEST(Repeatability, FindsTheShift) {
   EXPECT_EQ(best_shift(before, frame_of({}), 4).repeatability.share(), 0);
 }
 
+TEST(Repeatability, FollowsIdentities) {
+  const auto with_id = [](Curve curve, std::int64_t id) {
+    curve.id = id;
+    return curve;
+  };
+  // Edge 1 in two pieces, edge 4, edge 9; the next frame shows 1, 4 and 7.
+  const auto before =
+      frame_of({with_id(line({0, 40}, {20, 40}), 4), with_id(line({0, 10}, {40, 10}), 1),
+                with_id(line({50, 10}, {60, 10}), 1), with_id(line({0, 60}, {30, 60}), 9),
+                line({0, 70}, {90, 70})});
+  const auto after =
+      frame_of({with_id(line({0, 15}, {40, 15}), 1), with_id(line({0, 45}, {20, 45}), 4),
+                with_id(line({0, 66}, {30, 66}), 7)});
+  // All of 4 and 9, and 30 of the 50 px of edge 1.
+  const auto first = found_by_id(
+      frame_of({line({0, 40}, {20, 40}), line({0, 60}, {30, 60}), line({0, 10}, {30, 10})}), before,
+      0.01);
+  ASSERT_EQ(first.size(), 3U);
+  EXPECT_EQ(first[0].id, 1);
+  EXPECT_NEAR(first[0].true_px, 50, 1e-9);
+  EXPECT_NEAR(first[0].found_px, 30, 0.3);
+  EXPECT_EQ(first[2].id, 9);
+  // Less than half of 1, all of 4.
+  const auto second =
+      found_by_id(frame_of({line({0, 15}, {19, 15}), line({0, 45}, {20, 45})}), after, 0.01);
+  auto result = repeatability_by_id(first, second);
+  EXPECT_NEAR(result.found_px, 70, 1e-9);
+  EXPECT_NEAR(result.again_px, 20, 1e-9);
+  EXPECT_NEAR(result.share(), 2 / 7.0, 1e-9);
+  result += result;
+  EXPECT_NEAR(result.found_px, 140, 1e-9);
+  // The way back: 1 was not found, 4 was.
+  EXPECT_NEAR(repeatability_by_id(second, first).share(), 1, 1e-9);
+  EXPECT_TRUE(std::isnan(repeatability_by_id(first, {}).share()));
+}
+
 TEST(Drawing, PaintsThePixelsThatCurvesPass) {
   CurveFrame frame;
   frame.width = 6;
@@ -218,6 +254,8 @@ TEST(CurvesJson, IsReadWithWhatMayBeAbsent) {
   EXPECT_EQ(frame->curves[0].points[0].y, 2.5);
   EXPECT_EQ(frame->curves[0].contrast_counts, 12.5);
   EXPECT_TRUE(frame->curves[0].closed);
+  EXPECT_EQ(frame->curves[0].id, 7);
+  EXPECT_EQ(frame->curves[1].id, -1);
   EXPECT_TRUE(std::isnan(frame->curves[1].contrast_counts));
   const auto bare = parse_curves(R"({"width": 1, "height": 1, "edges": []})", "name");
   ASSERT_TRUE(bare);
@@ -249,6 +287,8 @@ TEST(CurvesJson, SaysWhatIsWrong) {
            {head + R"([{"points": [[1, 1e300]]}]})", points},
            {head + R"([{"points": [], "closed": 1}]})",
             "t.json: edge 0: closed should be true or false"},
+           {head + R"([{"points": [], "id": -2}]})",
+            "t.json: edge 0: id should be a whole number from 0 up, or null"},
            {head + R"([{"points": [], "contrast_counts": "many"}]})",
             "t.json: edge 0: contrast_counts should be a number from 0 up, or null"}}) {
     const auto frame = parse_curves(text, "t.json");

@@ -23,6 +23,7 @@ struct Curve {
   std::vector<Point> points;  // in walking order; a closed curve does not repeat its first point
   bool closed = false;
   double contrast_counts = std::numeric_limits<double>::quiet_NaN();  // NaN: not known
+  std::int64_t id = -1;  // which edge of the world it is a piece of, over a sequence; -1: not known
 };
 
 struct CurveFrame {
@@ -33,8 +34,9 @@ struct CurveFrame {
 };
 
 // A frame from one JSON object: {"width", "height", "edges": [{"points": [[x, y], ...], "closed",
-// "contrast_counts"}, ...], "sigma_counts"}; closed, contrast_counts and sigma_counts may be absent
-// or null, other keys are passed over. `name` is for messages. Errors name the key. Thread-safe.
+// "contrast_counts", "id"}, ...], "sigma_counts"}; all but width, height, edges and points may be
+// absent or null, other keys are passed over. `name` is for messages. Errors name the key.
+// Thread-safe.
 [[nodiscard]] Result<CurveFrame> parse_curves(std::string_view json, const std::string& name);
 
 // Paints the pixels that the curves pass (nearest pixel, 255) into a map of the frame's size, which
@@ -124,6 +126,29 @@ struct ShiftedRepeatability {
 };
 [[nodiscard]] ShiftedRepeatability best_shift(const CurveFrame& from, const CurveFrame& to,
                                               int most_px, double reach_px = 1);
+
+// How much of a true edge was found in a frame, over all its pieces.
+struct EdgeShare {
+  std::int64_t id = 0;
+  double true_px = 0;
+  double found_px = 0;  // within reach of a found curve
+};
+// Rising ids; curves without one are passed over.
+[[nodiscard]] std::vector<EdgeShare> found_by_id(const CurveFrame& found, const CurveFrame& truth,
+                                                 double reach_px);
+
+// Repeatability where truth knows which edge is which, so that no motion need be known: of the true
+// edges of which at least half was found in a frame and that the next one shows as well, those of
+// which half was found there again. Lengths in the first frame, so that frames can be added up.
+struct EdgeRepeatability {
+  double found_px = 0;
+  double again_px = 0;
+
+  [[nodiscard]] double share() const;  // NaN where nothing was found
+  EdgeRepeatability& operator+=(const EdgeRepeatability& other);
+};
+[[nodiscard]] EdgeRepeatability repeatability_by_id(std::span<const EdgeShare> from,
+                                                    std::span<const EdgeShare> to);
 
 // Each set pixel of a map as a curve of one point, so that maps can be compared as curves are.
 [[nodiscard]] CurveFrame pixels_as_curves(ImageView<const std::uint8_t> map);

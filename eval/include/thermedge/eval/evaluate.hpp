@@ -35,6 +35,7 @@ struct CurveFigures {
   Localisation localisation;
   ContrastRecall by_counts;
   ContrastRecall by_sigma;  // contrast in units of the noise; no length where that is not known
+  EdgeRepeatability repeatability;  // from each frame to the next one; nothing where edges lack ids
 };
 
 struct Evaluation {
