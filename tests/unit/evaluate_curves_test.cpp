@@ -80,6 +80,7 @@ TEST(Localisation, LeavesOutWhatIsFarOrBeyondAnEnd) {
   const auto result = localise(frame_of({line({40, 20}, {60, 20})}), truth, 3);
   EXPECT_EQ(result.points, 21);
   EXPECT_NEAR(result.rms_px(), 0, 1e-12);
+  EXPECT_EQ(localise(frame_of({line({0, 20}, {20, 20})}), truth, 3).points, 21);
 }
 
 // The grid of cells finds what a look at every part finds.
