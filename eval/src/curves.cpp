@@ -132,14 +132,35 @@ NearestOnCurves::NearestOnCurves(std::span<const Curve> curves, double reach_px)
   if (!any) {
     return;
   }
+  // Points far outside the frame must not cost memory.
+  constexpr double kMostCells = 1e6;
+  const double area_px2 = (high.x - low_.x) * (high.y - low_.y);
+  cell_px_ = std::max(cell_px_, std::sqrt(area_px2 / kMostCells));
   columns_ = static_cast<int>((high.x - low_.x) / cell_px_) + 1;
   rows_ = static_cast<int>((high.y - low_.y) / cell_px_) + 1;
   cells_.resize(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_));
   for (std::uint32_t i = 0; i < segments_.size(); ++i) {
-    const Segment& segment = segments_[i];
-    for_each_cell({std::min(segment.from.x, segment.to.x), std::min(segment.from.y, segment.to.y)},
-                  {std::max(segment.from.x, segment.to.x), std::max(segment.from.y, segment.to.y)},
-                  [&](std::size_t cell) { cells_[cell].push_back(i); });
+    add_to_cells(i);
+  }
+}
+
+// Piece by piece, since the box around a long part holds many cells that it does not pass.
+void NearestOnCurves::add_to_cells(std::uint32_t index) {
+  const Segment& segment = segments_[index];
+  const double length = distance(segment.from, segment.to);
+  const int pieces = std::max(1, static_cast<int>(std::ceil(length / cell_px_)));
+  for (int piece = 0; piece < pieces; ++piece) {
+    const Point a = between(segment.from, segment.to, static_cast<double>(piece) / pieces);
+    const Point b = between(segment.from, segment.to, static_cast<double>(piece + 1) / pieces);
+    // A little more than the piece itself, against rounding at the borders of cells.
+    constexpr double kMargin = 1e-6;
+    for_each_cell({std::min(a.x, b.x) - kMargin, std::min(a.y, b.y) - kMargin},
+                  {std::max(a.x, b.x) + kMargin, std::max(a.y, b.y) + kMargin},
+                  [&](std::size_t cell) {
+                    if (cells_[cell].empty() || cells_[cell].back() != index) {
+                      cells_[cell].push_back(index);
+                    }
+                  });
   }
 }
 

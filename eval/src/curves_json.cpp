@@ -9,7 +9,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr double kFarthestPx = 1e6;  // a coordinate beyond this is no place in a frame
+constexpr double kFarthestPx = 1e5;  // a coordinate beyond this is no place in a frame
 
 tl::unexpected<Error> wrong(const std::string& name, const std::string& what) {
   return failure(ErrorCode::kBadData, name + ": " + what);
@@ -51,6 +51,18 @@ bool take_points(const Json& edge, std::vector<Point>& points) {
     }
   }
   return true;
+}
+
+double length_px(const CurveFrame& frame) {
+  double sum = 0;
+  for (const Curve& curve : frame.curves) {
+    for (std::size_t i = 1; i < curve.points.size(); ++i) {
+      const double dx = curve.points[i].x - curve.points[i - 1].x;
+      const double dy = curve.points[i].y - curve.points[i - 1].y;
+      sum += std::sqrt(dx * dx + dy * dy);
+    }
+  }
+  return sum;
 }
 
 Result<Curve> parse_curve(const Json& edge, const std::string& name) {
@@ -101,6 +113,13 @@ Result<CurveFrame> parse_curves(std::string_view json, const std::string& name) 
       return tl::unexpected(std::move(curve.error()));
     }
     frame.curves.push_back(std::move(*curve));
+  }
+  // No frame holds more, and the time to judge it grows with the length.
+  const double most_px = 4.0 * frame.width * frame.height;
+  if (const double total = length_px(frame); total > most_px) {
+    return wrong(name, "edges of " + std::to_string(std::llround(total)) +
+                           " px in all are more than a frame of " + std::to_string(frame.width) +
+                           "x" + std::to_string(frame.height) + " pixels holds");
   }
   return frame;
 }

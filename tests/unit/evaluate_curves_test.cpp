@@ -117,6 +117,15 @@ TEST(NearestOnCurves, AgreesWithLookingAtEverything) {
   EXPECT_GT(near, 500);
 }
 
+TEST(NearestOnCurves, TakesNoMemoryForWhatIsFarAway) {
+  const Curve far_apart = line({-1e5, -1e5}, {1e5, 1e5});
+  const std::vector<Curve> curves{far_apart, line({10, 20}, {50, 20})};
+  const NearestOnCurves index(curves, 3);
+  EXPECT_NEAR(index.nearest({30, 21}).offset_px, 1, 1e-9);
+  EXPECT_NEAR(index.nearest({70000, 70002}).distance_px, std::sqrt(2.0), 1e-6);
+  EXPECT_FALSE(index.is_near({70000, 70005}));
+}
+
 TEST(ContrastRecall, IsTheShareOfTheLengthThatWasFound) {
   const auto truth = frame_of({line({0, 10}, {40, 10}, 4), line({0, 30}, {40, 30}, 20),
                                line({0, 50}, {40, 50}, 39.9), line({0, 70}, {40, 70}, 1000),
@@ -286,6 +295,8 @@ TEST(CurvesJson, SaysWhatIsWrong) {
            {head + R"([{"points": [[1]]}]})", points},
            {head + R"([{"points": [[1, "2"]]}]})", points},
            {head + R"([{"points": [[1, 1e300]]}]})", points},
+           {head + R"([{"points": [[0, 0], [40, 0], [0, 0]]}]})",
+            "t.json: edges of 80 px in all are more than a frame of 4x4 pixels holds"},
            {head + R"([{"points": [], "closed": 1}]})",
             "t.json: edge 0: closed should be true or false"},
            {head + R"([{"points": [], "id": -2}]})",

@@ -37,6 +37,7 @@ struct CurveFrame {
 // "contrast_counts", "id"}, ...], "sigma_counts"}; all but width, height, edges and points may be
 // absent or null, other keys are passed over. `name` is for messages. Errors name the key.
 // Thread-safe.
+// So is an error: curves that are longer in all than four times the pixels of the frame.
 [[nodiscard]] Result<CurveFrame> parse_curves(std::string_view json, const std::string& name);
 
 // Paints the pixels that the curves pass (nearest pixel, 255) into a map of the frame's size, which
@@ -64,7 +65,7 @@ class NearestOnCurves {
     Point from, to;
     bool open_from = false, open_to = false;  // nothing follows there
   };
-  void add(const Segment& segment);
+  void add_to_cells(std::uint32_t index);
   template <class F>
   void for_each_cell(Point low, Point high, F&& visit) const;
 
