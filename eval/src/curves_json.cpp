@@ -1,7 +1,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "thermedge/eval/curves.hpp"
+#include "curve_parts.hpp"
 #include "thermedge/limits.hpp"
 
 namespace thermedge::eval {
@@ -56,11 +56,7 @@ bool take_points(const Json& edge, std::vector<Point>& points) {
 double length_px(const CurveFrame& frame) {
   double sum = 0;
   for (const Curve& curve : frame.curves) {
-    for (std::size_t i = 1; i < curve.points.size(); ++i) {
-      const double dx = curve.points[i].x - curve.points[i - 1].x;
-      const double dy = curve.points[i].y - curve.points[i - 1].y;
-      sum += std::sqrt(dx * dx + dy * dy);
-    }
+    for_each_part(curve, [&](Point from, Point to) { sum += distance(from, to); });
   }
   return sum;
 }
