@@ -308,6 +308,41 @@ TEST(Scorer, ProminentAndLongEdgesComeFirstWhereProminenceIsGiven) {
   EXPECT_NEAR(edges.edges[0].es, 0, 1e-9);  // still told
 }
 
+// A bridge has no prominence of its own; it makes an edge longer, not weaker.
+TEST(Scorer, PixelsWithoutProminenceCountForTheLengthOnly) {
+  Image<float> prominence(60, 20);
+  fill_pixels(prominence.view(), 0.0F);
+  for (int x = 0; x < 20; ++x) {
+    prominence(x, 10) = 3;
+  }
+  const auto pixels = straight({10, 10}, {29, 10});  // the first half has one
+  EXPECT_NEAR(prominence_score(pixels, prominence), std::log(3.0) + 0.25 * std::log(20.0), 1e-9);
+  fill_pixels(prominence.view(), 0.0F);
+  EXPECT_TRUE(std::isfinite(prominence_score(pixels, prominence)));
+}
+
+TEST(Scorer, StrengthFallsWithTheRank) {
+  Frame frame;
+  for (int i = 0; i < 5; ++i) {
+    frame.add(straight({10, 10 * i + 10}, {40, 10 * i + 10}));
+  }
+  const EdgeSet by_es = score(frame);
+  for (std::size_t i = 0; i < 5; ++i) {
+    EXPECT_DOUBLE_EQ(by_es.edges[i].strength, 1 - static_cast<double>(i) / 4);
+  }
+  Image<float> prominence(382, 288);
+  fill_pixels(prominence.view(), 0.0F);
+  for (int i = 0; i < 5; ++i) {
+    std::fill_n(prominence.row(10 * i + 10), prominence.width(), static_cast<float>(i + 1));
+  }
+  EdgeSet by_prominence;
+  ASSERT_TRUE(Scorer({}).run(frame.linked, frame.corners, prominence, by_prominence));
+  for (std::size_t i = 1; i < 5; ++i) {
+    EXPECT_LT(by_prominence.edges[i].strength, by_prominence.edges[i - 1].strength);
+  }
+  EXPECT_LT(by_prominence.edges[0].strength, 1) << "a stronger one may come in another frame";
+}
+
 TEST(Scorer, EdgelsFollowTheCurve) {
   const auto open = polyline({{20, 20}, {20, 30}, {40, 30}});
   const auto loop = polyline({{60, 60}, {70, 60}, {70, 70}, {60, 70}, {60, 61}});

@@ -57,6 +57,22 @@ TEST(EdgeSelector, BudgetOfEdgels) {
   EXPECT_EQ(selected({1, 1000}).kept, 1U);
 }
 
+// What fails is drawn no stronger than what is kept.
+TEST(EdgeSelector, StrengthFollowsTheNewOrder) {
+  EdgeSet set = four_edges({-9, 0, -9, -9}, {4, 3, 2, 1});
+  for (Edge& edge : set.edges) {
+    edge.strength = edge.score / 4;
+  }
+  SelectionOptions options;
+  options.max_false_alarms = 0.1;
+  ASSERT_TRUE(EdgeSelector(options).run(set));
+  ASSERT_EQ(set.edges[3].verdict, EdgeVerdict::kInsignificant);
+  EXPECT_EQ(set.edges[3].score, 3);
+  EXPECT_EQ(set.edges[0].strength, 1);
+  EXPECT_EQ(set.edges[2].strength, 0.25);
+  EXPECT_EQ(set.edges[3].strength, 0.25);
+}
+
 TEST(EdgeSelector, EdgesThatFailGoBehindTheOthers) {
   SelectionOptions options;
   options.min_score = 1.5;
