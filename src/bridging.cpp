@@ -21,7 +21,7 @@ constexpr int kTipPixels = 10;   // that tell the direction of an end
 constexpr double kSidePx = 2;    // how far from a bridge its contrast is taken
 constexpr double kUnseenPx = 2;  // bridges up to this need no contrast
 constexpr double kTurnCost = 2;  // of a bridge that turns by 90 degrees, in its lengths
-constexpr int kTipReach = 2;     // a curve met this near to its end is met at its end
+constexpr int kTipReach = 4;     // a curve met this near to its end is met at its end
 constexpr double kOwnGaps = 4;   // so many gaps along its own curve an end may be bridged to it
 constexpr double kNoWay = 1e9;
 
