@@ -161,6 +161,8 @@ Status Detector::Impl::detect_oriented(int bits) {
   const double range = range_of_counts();
   result.sigma_counts = sigma > kNoNoise * range ? sigma : 0;
   const double unit = std::hypot(sigma, options.oriented.noise_floor * range);
+  result.range_counts = range;
+  result.unit_counts = unit;
   const double noisiness =
       std::clamp((sigma / range - kCleanNoise) / (kFullNoise - kCleanNoise), 0.0, 1.0);
   return scale(bits)
@@ -171,6 +173,7 @@ Status Detector::Impl::detect_oriented(int bits) {
             .map([&](const OrientedResult& edges) {
               oriented_found = edges;
               result.edge_map = edges.edges;
+              result.kernel_px = edges.kernel;
               result.canny_low = options.oriented.low;
               result.canny_high = options.oriented.high;
             });
@@ -294,6 +297,9 @@ void Detector::Impl::begin(int width, int height) {
   result.levels = {};
   result.denoised = {};
   result.edge_map = {};
+  result.range_counts = 0;
+  result.unit_counts = 0;
+  result.kernel_px = {0, 0};
   result.canny_low = 0;
   result.canny_high = 0;
   result.contours = options.edges == EdgeMethod::kOriented ? &traced.contours : &contours;

@@ -46,6 +46,10 @@ struct Detection {
   double sigma_counts = 0;  // the noise that the denoiser was told
   double canny_low = 0,
          canny_high = 0;  // thresholds used; of oriented kernels in units of the noise
+  // Of oriented kernels, 0 otherwise: what the thresholds are in units of, and what it came from.
+  double range_counts = 0;  // of the frame, its 0.1st to 99.9th percentile
+  double unit_counts = 0;   // noise, at least a share of the range
+  KernelSize kernel_px{0, 0};
   EdgeSet edges;
   StageTimes ms;
   // Intermediate pictures and sets, for looking at each step; empty where a step did not run.

@@ -49,6 +49,21 @@ struct VerdictCounts {
   std::size_t weak = 0, insignificant = 0, beyond_budget = 0;
 };
 
+// What was measured on the frame, and what was chosen by it.
+Json measured(const Detection& detection) {
+  const NoiseEstimate& noise = detection.noise;
+  Json json = {{"sigma_counts", rounded(noise.sigma_counts)},
+               {"column_sigma_counts", rounded(noise.column_sigma_counts)},
+               {"row_sigma_counts", rounded(noise.row_sigma_counts)}};
+  if (detection.unit_counts > 0) {
+    json["range_counts"] = rounded(detection.range_counts);
+    json["unit_counts"] = rounded(detection.unit_counts);
+    json["kernel_px"] = {rounded(detection.kernel_px.across_px),
+                         rounded(detection.kernel_px.along_px)};
+  }
+  return json;
+}
+
 VerdictCounts count_verdicts(const EdgeSet& set) {
   VerdictCounts counts;
   for (const Edge& edge : set.edges) {
@@ -86,6 +101,7 @@ std::string edges_to_json(const Detection& detection, const ResultLabel& label) 
                          {"junctions", std::move(junctions)},
                          {"stats",
                           {{"ms", to_json(detection.ms)},
+                           {"measured", measured(detection)},
                            {"edges_found", set.edges.size()},
                            {"edges_dropped", to_json(count_verdicts(set))},
                            {"dead_pixels", detection.dead_pixels.size()},

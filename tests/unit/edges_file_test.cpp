@@ -62,6 +62,20 @@ TEST(EdgesJson, RoundsPointsToAThousandth) {
   EXPECT_EQ(json["edges"][1]["points"][1][0], 12.346);
 }
 
+TEST(EdgesJson, SaysWhatWasMeasuredAndChosen) {
+  Detection detection = two_edges();
+  detection.noise = {5.5, 1.25, 0.75};
+  const auto of_canny = nlohmann::json::parse(edges_to_json(detection, {"", ""}));
+  EXPECT_EQ(of_canny["stats"]["measured"]["column_sigma_counts"], 1.25);
+  EXPECT_FALSE(of_canny["stats"]["measured"].contains("unit_counts"));
+  detection.range_counts = 750;
+  detection.unit_counts = 45.2;
+  detection.kernel_px = {1.2, 2.5};
+  const auto json = nlohmann::json::parse(edges_to_json(detection, {"", ""}));
+  EXPECT_EQ(json["stats"]["measured"]["unit_counts"], 45.2);
+  EXPECT_EQ(json["stats"]["measured"]["kernel_px"], nlohmann::json({1.2, 2.5}));
+}
+
 TEST(EdgesJson, IsOneLineWhateverTheName) {
   const std::string text = edges_to_json(two_edges(), {"a\"\n\xff.png", "paper"});
   EXPECT_EQ(text.find('\n'), text.size() - 1);
