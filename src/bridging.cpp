@@ -222,11 +222,11 @@ bool Bridger::step_goes_on(const Tip& tip, Pixel to, ImageView<const float> fram
     return true;
   }
   const Vector way = direction(tip.at, to);
+  const int samples = std::max(static_cast<int>(2 * (length - 1)), 1);  // every half pixel
   double step = 0;
-  int samples = 0;
-  for (double along = 0.5; along <= length - 1; along += 0.5) {
-    step += step_across(frame, tip.at.x + along * way.x, tip.at.y + along * way.y, way.x, way.y);
-    ++samples;
+  for (int i = 1; i <= samples; ++i) {
+    step +=
+        step_across(frame, tip.at.x + 0.5 * i * way.x, tip.at.y + 0.5 * i * way.y, way.x, way.y);
   }
   const double same_side = tip.contrast < 0 ? -step : step;
   return same_side > 0 && same_side >= options_.least_contrast * std::abs(tip.contrast) * samples;
