@@ -153,7 +153,7 @@ Bridger::Tip Bridger::tip_of(const ContourSet& contours, std::int32_t end,
 std::optional<Bridger::Bridge> Bridger::find_target(const Tip& tip, std::int32_t end,
                                                     double least_cosine) const {
   const std::int32_t own_place = place_(tip.at.x, tip.at.y);
-  Bridge best{kNoWay, end, {}, kNone};
+  Bridge best{kNoWay, end, {}, kNone, std::nullopt};
   for (const Pixel offset : offsets_) {
     const Pixel to{tip.at.x + offset.x, tip.at.y + offset.y};
     if (!owner_.view().contains(to.x, to.y) || owner_(to.x, to.y) == kNone) {
@@ -165,7 +165,7 @@ std::optional<Bridger::Bridge> Bridger::find_target(const Tip& tip, std::int32_t
         is_own(end, to) && std::abs(place_(to.x, to.y) - own_place) <= kOwnGaps * options_.gap_px;
     const double cost = length * (1 + kTurnCost * (1 - cosine));
     if (cosine >= least_cosine && !own_tip && cost < best.cost) {
-      best = {cost, end, to, kNone};
+      best = {cost, end, to, kNone, std::nullopt};
     }
   }
   if (const double length = distance_to_border(tip);
@@ -177,7 +177,8 @@ std::optional<Bridger::Bridge> Bridger::find_target(const Tip& tip, std::int32_t
             end,
             {place(tip.at.x, tip.ahead.x, owner_.width()),
              place(tip.at.y, tip.ahead.y, owner_.height())},
-            kNone};
+            kNone,
+            std::nullopt};
   }
   return best.cost < kNoWay && best.to != tip.at ? std::optional(best) : std::nullopt;
 }
@@ -193,7 +194,7 @@ double Bridger::distance_to_border(const Tip& tip) const {
 }
 
 // Where the target is near a free end of its curve, that end is the target, and the two become one
-// curve if neither turns too far and their steps agree.
+// curve if their steps agree and either neither turns too far or both head for a corner.
 void Bridger::meet_end(const ContourSet& contours, ImageView<const float> frame, const Tip& tip,
                        double least_cosine, Bridge& bridge) const {
   const std::int32_t owner = owner_(bridge.to.x, bridge.to.y);
@@ -209,11 +210,36 @@ void Bridger::meet_end(const ContourSet& contours, ImageView<const float> frame,
     bridge.to = at;
     const Vector way = direction(tip.at, at);
     const Tip met = tip_of(contours, other, frame);  // looks the other way
-    const bool same_step = tip.contrast * met.contrast <= 0;
-    if (same_step && -(way.x * met.ahead.x + way.y * met.ahead.y) >= least_cosine) {
+    if (tip.contrast * met.contrast > 0) {
+      continue;
+    }
+    if (-(way.x * met.ahead.x + way.y * met.ahead.y) >= least_cosine) {
       bridge.partner = other;
+    } else if (const auto corner = corner_of(tip, met);
+               corner && step_goes_on(met, *corner, frame)) {
+      bridge.partner = other;
+      bridge.corner = corner;
     }
   }
+}
+
+// Where what two ends head for is the corner of an outline: ahead of both, no farther than a gap.
+std::optional<Pixel> Bridger::corner_of(const Tip& a, const Tip& b) const {
+  constexpr double kLeastSine = 0.4;  // of the angle at the corner
+  const auto cross = [](const Vector& p, const Vector& q) { return p.x * q.y - p.y * q.x; };
+  const double sine = cross(a.ahead, b.ahead);
+  const Vector between{static_cast<double>(b.at.x - a.at.x), static_cast<double>(b.at.y - a.at.y)};
+  const double from_a = cross(between, b.ahead) / sine;
+  const double from_b = cross(between, a.ahead) / sine;
+  const auto is_near = [&](double way) { return way >= 0 && way <= options_.gap_px; };
+  if (std::abs(sine) < kLeastSine || !is_near(from_a) || !is_near(from_b)) {
+    return std::nullopt;
+  }
+  const Pixel corner{static_cast<int>(std::lround(a.at.x + from_a * a.ahead.x)),
+                     static_cast<int>(std::lround(a.at.y + from_a * a.ahead.y))};
+  const bool inside = corner.x > 0 && corner.y > 0 && corner.x < owner_.width() - 1 &&
+                      corner.y < owner_.height() - 1;
+  return inside && corner != a.at && corner != b.at ? std::optional(corner) : std::nullopt;
 }
 
 bool Bridger::step_goes_on(const Tip& tip, Pixel to, ImageView<const float> frame) const {
@@ -242,7 +268,7 @@ std::optional<Bridger::Bridge> Bridger::find_bridge(const ContourSet& contours, 
   auto bridge = find_target(tip, end, least_cosine);
   if (bridge) {
     meet_end(contours, frame, tip, least_cosine, *bridge);
-    if (!step_goes_on(tip, bridge->to, frame)) {
+    if (!step_goes_on(tip, bridge->corner.value_or(bridge->to), frame)) {
       return std::nullopt;
     }
   }
@@ -260,7 +286,7 @@ void Bridger::join(const ContourSet& contours, LinkedContours& bridged) {
     const auto self = static_cast<std::uint32_t>(contour_of(bridge.end));
     const Pixel from = pixel_of(contours, bridge.end);
     if (bridge.partner != kNone && chains_.is_free(bridge.partner)) {
-      const bool loop = chains_.join(bridge.end, bridge.partner);
+      const bool loop = chains_.join(bridge.end, bridge.partner, bridge.corner);
       bridged.links.push_back(
           {loop ? LinkType::kLoop : LinkType::kEndToEnd, self, self, from, bridge.to});
       continue;

@@ -23,8 +23,9 @@ struct BridgingOptions {
 // Where an edge meets a stronger one, the ridge of its gradient ends some pixels before, and a weak
 // stretch makes a gap. From each free end, the shortest, straightest bridge to another curve, to an
 // end or to the frame's border is taken, if the step that the edge has goes on across it. Bridges
-// come by their length, with an addition for their turn, each end once. Two ends that meet become
-// one curve, unless that needs a kink; ends that meet a curve become a link of type 2.
+// are taken by their length, with an addition for their turn, each end once. Two ends that meet
+// become one curve, straight on or by way of the corner that both head for, but not by a kink; ends
+// that meet a curve become a link of type 2.
 // One object per thread; allocates on the first frame of a size only.
 class Bridger {
  public:
@@ -50,7 +51,8 @@ class Bridger {
     double cost;
     std::int32_t end;
     Pixel to;
-    std::int32_t partner;  // end that it meets, -1: none
+    std::int32_t partner;         // end that it meets, -1: none
+    std::optional<Pixel> corner;  // by way of which it does
   };
 
   void prepare(const LinkedContours& curves, ImageView<const float> frame, LinkedContours& bridged);
@@ -64,6 +66,7 @@ class Bridger {
   [[nodiscard]] double distance_to_border(const Tip& tip) const;
   void meet_end(const ContourSet& contours, ImageView<const float> frame, const Tip& tip,
                 double least_cosine, Bridge& bridge) const;
+  [[nodiscard]] std::optional<Pixel> corner_of(const Tip& a, const Tip& b) const;
   [[nodiscard]] bool step_goes_on(const Tip& tip, Pixel to, ImageView<const float> frame) const;
   [[nodiscard]] std::optional<Bridge> find_bridge(const ContourSet& contours, std::int32_t end,
                                                   ImageView<const float> frame) const;

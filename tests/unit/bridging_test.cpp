@@ -123,6 +123,21 @@ TEST(Bridger, RefusesAKink) {
                            [](const Link& link) { return link.type == LinkType::kEndToEnd; }));
 }
 
+// The outline of a warm quarter of the frame, of which the corner is missing.
+TEST(Bridger, RunsIntoTheCornerThatTwoEndsHeadFor) {
+  Image<float> frame(kWidth, kHeight);
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      frame(x, y) = x > 40 && y > 30 ? 1200.0F : 1000.0F;
+    }
+  }
+  const auto level = straight({60, 30}, {45, 30});
+  const auto upright = straight({40, 34}, {40, 45});
+  const LinkedContours bridged = bridge({level, upright}, frame);
+  ASSERT_EQ(bridged.contours.contours.size(), 1U);
+  EXPECT_EQ(pixels_of(bridged.contours, 0), polyline({{60, 30}, {40, 30}, {40, 45}}));
+}
+
 TEST(Bridger, ClosesARing) {
   Image<float> frame(kWidth, kHeight);
   std::vector<Pixel> ring;
