@@ -41,6 +41,14 @@ Result<std::string> in_directory(const std::filesystem::path& directory, const s
 
 }  // namespace
 
+void RunOptions::add_to(CLI::App& app) {
+  app.add_option("--threads", threads, "threads (0: one per core)")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  app.add_flag("--quiet", quiet, "errors only");
+  app.add_flag("--json-log", json_log, "messages as JSON lines");
+}
+
 void CommonOptions::add_to(CLI::App& app) {
   app.add_option("INPUT", inputs,
                  "picture files, directories, globs, .raw files, - (standard input), "
@@ -51,12 +59,8 @@ void CommonOptions::add_to(CLI::App& app) {
   app.add_option("--raw-format", raw_format, "pixels of headerless frames")
       ->check(CLI::IsMember({"gray16le", "gray16be", "gray8"}))
       ->capture_default_str();
-  app.add_option("--threads", threads, "threads (0: one per core)")
-      ->check(CLI::Range(0, 1024))
-      ->capture_default_str();
   app.add_option("--simd", simd, "instruction set: auto or a target's name")->capture_default_str();
-  app.add_flag("--quiet", quiet, "errors only");
-  app.add_flag("--json-log", json_log, "messages as JSON lines");
+  RunOptions::add_to(app);
 }
 
 Result<io::SourceOptions> CommonOptions::prepare() const {

@@ -13,19 +13,25 @@
 
 namespace thermedge::cli {
 
-// INPUT..., -o, --raw-size, --raw-format, --threads, --simd, --quiet, --json-log.
-struct CommonOptions {
-  std::vector<std::string> inputs;
-  std::string output;
-  std::string raw_size;
-  std::string raw_format = "gray16le";
-  std::string simd = "auto";
+// --threads, --quiet, --json-log.
+struct RunOptions {
   int threads = 0;
   bool quiet = false;
   bool json_log = false;
 
   void add_to(CLI::App& app);
   [[nodiscard]] Report report() const { return {quiet, json_log}; }
+};
+
+// INPUT..., -o, --raw-size, --raw-format, --simd, and those above.
+struct CommonOptions : RunOptions {
+  std::vector<std::string> inputs;
+  std::string output;
+  std::string raw_size;
+  std::string raw_format = "gray16le";
+  std::string simd = "auto";
+
+  void add_to(CLI::App& app);
   // Checks what the parser can't and selects the SIMD target. Failures are usage errors.
   [[nodiscard]] Result<io::SourceOptions> prepare() const;
 };

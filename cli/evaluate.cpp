@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "commands.hpp"
+#include "common.hpp"
 #include "evaluation_page.hpp"
 #include "report.hpp"
 #include "thermedge/eval/evaluate.hpp"
@@ -12,18 +13,15 @@
 namespace thermedge::cli {
 namespace {
 
-struct EvaluateCommand {
+struct EvaluateCommand : RunOptions {
   std::string found;
   std::string truth;
   std::string output;
   eval::EvaluationOptions options;
   double least_contrast_counts = 0;
-  int threads = 0;
   bool no_thin = false;
   bool empty = false;
   bool json = false;
-  bool quiet = false;
-  bool json_log = false;
 
   [[nodiscard]] int run();
 
@@ -63,7 +61,7 @@ Result<std::string> EvaluateCommand::alone(const eval::FoundSet& set, Report& re
 }
 
 int EvaluateCommand::run() {
-  Report report(quiet, json_log);
+  Report report = this->report();
   if (empty && !truth.empty()) {
     return report.fail({ErrorCode::kInvalidArgument, "--empty: empty scenes have no GT"});
   }
@@ -123,11 +121,7 @@ void add_evaluate(CLI::App& program, int& exit_code) {
   app.add_flag("--empty", command->empty, "the scenes are empty: count false alarms");
   app.add_option("-o,--output", command->output, "file for the page, or for JSON (.json)");
   app.add_flag("--json", command->json, "one JSON object instead of the page");
-  app.add_option("--threads", command->threads, "threads (0: one per core)")
-      ->check(CLI::Range(0, 1024))
-      ->capture_default_str();
-  app.add_flag("--quiet", command->quiet, "errors only");
-  app.add_flag("--json-log", command->json_log, "messages as JSON lines");
+  command->add_to(app);
   app.callback([command, &exit_code] { exit_code = command->run(); });
 }
 

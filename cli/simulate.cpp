@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::array<std::string_view, 4> kKinds = {"counts", "clean", "truth", "depth"};
 
-struct SimulateCommand {
+struct SimulateCommand : RunOptions {
   std::string scene;
   std::string output;
   std::string camera = "pi450";
@@ -28,9 +28,6 @@ struct SimulateCommand {
   std::optional<std::string> seed;
   std::optional<std::string> netd_mk;
   std::vector<std::string> settings;
-  int threads = 0;
-  bool quiet = false;
-  bool json_log = false;
 
   [[nodiscard]] bool writes(std::string_view kind) const {
     const auto kinds = split_list(write);
@@ -134,7 +131,7 @@ Status SimulateCommand::write_all(sim::Renderer& renderer, Report& report) const
 }
 
 int SimulateCommand::run() const {
-  Report report(quiet, json_log);
+  Report report = this->report();
   for (const std::string& kind : split_list(write)) {
     if (std::find(kKinds.begin(), kKinds.end(), kind) == kKinds.end()) {
       report.error("--write " + kind + ": should be some of counts, clean, truth, depth");
@@ -178,11 +175,7 @@ void add_simulate(CLI::App& program, int& exit_code) {
                  "another key of sim:NAME?key=value, e.g. shutter_every=200; may be repeated")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  app.add_option("--threads", command->threads, "threads (0: one per core)")
-      ->check(CLI::Range(0, 1024))
-      ->capture_default_str();
-  app.add_flag("--quiet", command->quiet, "errors only");
-  app.add_flag("--json-log", command->json_log, "messages as JSON lines");
+  command->add_to(app);
   app.callback([command, &exit_code] { exit_code = command->run(); });
 }
 

@@ -162,27 +162,20 @@ TEST_F(EvaluateProgram, SaysWhatIsWrongInOneLine) {
   std::filesystem::create_directory(directory_ / "empty");
   write_text((directory_ / "bad.npz").string(), "rubbish");
   write_text((directory_ / "bad.jsonl").string(), "{\"width\": 4}\n");
-  struct Case {
-    std::string arguments;
-    int exit_code;
-    std::string message;
-  };
-  for (const Case& bad :
-       {Case{"missing truth", 1, "missing: no such file"},
-        Case{"maps missing", 1, "missing: no such file"}, Case{"empty truth", 1, "empty: no edge"},
-        Case{"maps empty", 1, "empty/f0: no truth there"},
-        Case{"maps/f0.png bad.npz", 1, "bad.npz: no NPZ archive"},
-        Case{"bad.jsonl bad.jsonl", 1, "bad.jsonl:1: width and height"},
-        Case{"json/f0.json truth.jsonl", 1, "truth of 3 frames, but there are results of 1"},
-        Case{"maps truth.jsonl -o missing/x.json", 1, "missing/x.json"},
-        Case{"maps truth --at 0", 2, "--at"}, Case{"maps truth --max-dist 1", 2, "--max-dist"},
-        Case{"maps truth --empty", 2, "--empty"}, Case{"", 2, "PRED"}}) {
-    const auto result = run(bad.arguments);
-    EXPECT_EQ(result.exit_code, bad.exit_code) << bad.arguments;
-    EXPECT_EQ(count_lines(result.err), 1U) << bad.arguments << ": " << result.err;
-    EXPECT_NE(result.err.find(bad.message), std::string::npos) << result.err;
-    EXPECT_EQ(result.out, "") << bad.arguments;
-  }
+  expect_one_line_each(
+      {{"evaluate missing truth", 1, "missing: no such file"},
+       {"evaluate maps missing", 1, "missing: no such file"},
+       {"evaluate empty truth", 1, "empty: no edge"},
+       {"evaluate maps empty", 1, "empty/f0: no truth there"},
+       {"evaluate maps/f0.png bad.npz", 1, "bad.npz: no NPZ archive"},
+       {"evaluate bad.jsonl bad.jsonl", 1, "bad.jsonl:1: width and height"},
+       {"evaluate json/f0.json truth.jsonl", 1, "truth of 3 frames, but there are results of 1"},
+       {"evaluate maps truth.jsonl -o missing/x.json", 1, "missing/x.json"},
+       {"evaluate maps truth --at 0", 2, "--at"},
+       {"evaluate maps truth --max-dist 1", 2, "--max-dist"},
+       {"evaluate maps truth --empty", 2, "--empty"},
+       {"evaluate ", 2, "PRED"}},
+      directory_);
 }
 
 }  // namespace

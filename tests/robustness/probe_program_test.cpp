@@ -98,28 +98,19 @@ TEST_F(ProbeProgram, SaysWhatIsWrongInOneLine) {
   std::ofstream(directory_ / "bad.png") << "\x89PNG\r\n\x1a\nrubbish";
   std::filesystem::create_directory(directory_ / "empty");
   std::ofstream(directory_ / "nothing.raw").flush();
-  struct Case {
-    std::string arguments;
-    int exit_code;
-    std::string message;
-  };
-  for (const Case& bad :
-       {Case{"probe missing.png", 1, "missing.png"}, Case{"probe bad.png", 1, "bad.png"},
-        Case{"probe empty", 1, "empty"}, Case{"probe sim:nowhere", 1, "nowhere"},
-        Case{"probe sim:desk --degc-per-count 0", 2, "--degc-per-count"},
-        Case{"probe sim:desk --camera magic", 2, "--camera: camera magic"},
-        Case{"probe sim:desk --camera lepton --degc-per-count 1", 2, "--camera"},
-        Case{"probe sim:desk -o x.jpg", 2, "-o x.jpg"},
-        Case{"probe sim:desk -o missing/x.png", 1, "missing/x.png"},
-        Case{"probe sim:desk --toml missing/x.toml", 1, "missing/x.toml"},
-        Case{"probe - --raw-size 8x8 < nothing.raw", 1, "standard input"},
-        Case{"probe", 2, "INPUT"}}) {
-    const auto result = run(bad.arguments);
-    EXPECT_EQ(result.exit_code, bad.exit_code) << bad.arguments;
-    EXPECT_EQ(count_lines(result.err), 1U) << bad.arguments << ": " << result.err;
-    EXPECT_NE(result.err.find(bad.message), std::string::npos) << result.err;
-    EXPECT_EQ(result.out, "") << bad.arguments;
-  }
+  expect_one_line_each({{"probe missing.png", 1, "missing.png"},
+                        {"probe bad.png", 1, "bad.png"},
+                        {"probe empty", 1, "empty"},
+                        {"probe sim:nowhere", 1, "nowhere"},
+                        {"probe sim:desk --degc-per-count 0", 2, "--degc-per-count"},
+                        {"probe sim:desk --camera magic", 2, "--camera: camera magic"},
+                        {"probe sim:desk --camera lepton --degc-per-count 1", 2, "--camera"},
+                        {"probe sim:desk -o x.jpg", 2, "-o x.jpg"},
+                        {"probe sim:desk -o missing/x.png", 1, "missing/x.png"},
+                        {"probe sim:desk --toml missing/x.toml", 1, "missing/x.toml"},
+                        {"probe - --raw-size 8x8 < nothing.raw", 1, "standard input"},
+                        {"probe", 2, "INPUT"}},
+                       directory_);
 }
 
 }  // namespace

@@ -105,30 +105,20 @@ TEST_F(Simulate, SaysWhatIsWrong) {
              "[view]\nposition_m = [0, 0, 0]\nlook_at_m = [0, 1, 0]\n[[object]]\ntype = 'sphere'\n"
              "centre_m = [0, 2, 0]\nradius_m = 0.3\ntemperature_degc = -280\n");
   write_text(directory_ / "file", "");
-  struct Case {
-    std::string arguments;
-    int exit_code;
-    std::string says;
-  };
-  for (const Case& c : {
-           Case{"moon -o out", 2, "moon: no such scene; there are desk, corridor"},
-           Case{"missing.toml -o out", 1, "missing.toml: cannot be read as a scene file"},
-           Case{"cold.toml -o out", 1, "cold.toml: object '1': temperature_degc = -280"},
-           Case{"desk -o out --set colour=1", 2, "unknown key 'colour'"},
-           Case{"desk -o out --netd-mk loud", 2, "netd_mk=loud should be a number"},
-           Case{"desk -o file", 1, "file"},
-           Case{"desk", 2, "--output"},
-           Case{"-o out", 2, "SCENE"},
-           Case{"desk -o out --camera kodak", 2, "kodak"},
-           Case{"desk -o out --path zigzag", 2, "zigzag"},
-           Case{"desk -o out --frames 0", 2, "0"},
-           Case{"desk -o out --write colours", 2, "--write colours: should be some of counts"},
-       }) {
-    const auto result = run(c.arguments);
-    EXPECT_EQ(result.exit_code, c.exit_code) << c.arguments;
-    EXPECT_NE(result.err.find(c.says), std::string::npos) << result.err;
-    EXPECT_EQ(count_lines(result.err), 1U) << result.err;
-  }
+  expect_one_line_each(
+      {{"simulate moon -o out", 2, "moon: no such scene; there are desk, corridor"},
+       {"simulate missing.toml -o out", 1, "missing.toml: cannot be read as a scene file"},
+       {"simulate cold.toml -o out", 1, "cold.toml: object '1': temperature_degc = -280"},
+       {"simulate desk -o out --set colour=1", 2, "unknown key 'colour'"},
+       {"simulate desk -o out --netd-mk loud", 2, "netd_mk=loud should be a number"},
+       {"simulate desk -o file", 1, "file"},
+       {"simulate desk", 2, "--output"},
+       {"simulate -o out", 2, "SCENE"},
+       {"simulate desk -o out --camera kodak", 2, "kodak"},
+       {"simulate desk -o out --path zigzag", 2, "zigzag"},
+       {"simulate desk -o out --frames 0", 2, "0"},
+       {"simulate desk -o out --write colours", 2, "--write colours: should be some of counts"}},
+      directory_);
 }
 
 }  // namespace

@@ -1,12 +1,14 @@
 // Runs the thermedge program as a user would.
 #pragma once
 
+#include <gtest/gtest.h>
 #include <sys/wait.h>
 
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "support/files.hpp"
 
@@ -31,6 +33,24 @@ inline ProgramRun run_program(const std::string& arguments,
 
 inline std::size_t count_lines(const std::string& text) {
   return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+}
+
+struct BadCase {
+  std::string arguments;
+  int exit_code;
+  std::string message;  // part of it
+};
+
+// One line on standard error, nothing on standard output.
+inline void expect_one_line_each(const std::vector<BadCase>& cases,
+                                 const std::filesystem::path& directory) {
+  for (const BadCase& bad : cases) {
+    const auto result = run_program(bad.arguments, directory);
+    EXPECT_EQ(result.exit_code, bad.exit_code) << bad.arguments;
+    EXPECT_EQ(count_lines(result.err), 1U) << bad.arguments << ": " << result.err;
+    EXPECT_NE(result.err.find(bad.message), std::string::npos) << result.err;
+    EXPECT_EQ(result.out, "") << bad.arguments;
+  }
 }
 
 }  // namespace thermedge::test
