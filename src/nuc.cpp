@@ -56,6 +56,11 @@ Values ring(Frame frame, int x, int y, int radius) {
 // The rule for dead pixels in full; slow, so only the pixels that pass the noise test get here.
 bool is_dead(Frame frame, int x, int y, int limit) {
   const Values neighbours = ring(frame, x, y, 1);
+  const int above = frame(x, y) - neighbours.second_largest();
+  const int below = neighbours.second_smallest() - frame(x, y);
+  if (std::max(above, below) <= limit) {
+    return false;  // whatever the surroundings are like
+  }
   const Values surroundings = ring(frame, x, y, 2);
   // On the border, where one side is hidden, the flank of a point can look like a dead pixel beside
   // a hollow; the surroundings show that there is something.
@@ -63,8 +68,6 @@ bool is_dead(Frame frame, int x, int y, int limit) {
   const int contrast = all_seen ? 0 : surroundings.largest() - surroundings.smallest();
   const int hill = std::max(neighbours.second_largest() - surroundings.median(), contrast);
   const int hollow = std::max(surroundings.median() - neighbours.second_smallest(), contrast);
-  const int above = frame(x, y) - neighbours.second_largest();
-  const int below = neighbours.second_smallest() - frame(x, y);
   return above > limit + kOpticsRatio * hill || below > limit + kOpticsRatio * hollow;
 }
 

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
+
+#include "nth_value.hpp"
 
 namespace thermedge::detail {
 
@@ -34,9 +35,7 @@ Line robust_line(std::span<const WeightedPoint> points, std::vector<double>& dis
     if (!(determinant > kSingular * weights * squares)) {
       return {};
     }
-    const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
-    std::nth_element(distances.begin(), middle, distances.end());
-    scale = kSigmaOverMad * *middle;
+    scale = kSigmaOverMad * nth_value(std::span(distances), distances.size() / 2);
     line.level = (values * squares - products * places) / determinant;
     line.rise = (weights * products - places * values) / determinant;
   }

@@ -2,10 +2,11 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <vector>
 
+#include "simd/lag_sums.hpp"
+#include "simd/stripe_mask.hpp"
 #include "thermedge/image.hpp"
 
 namespace thermedge::detail {
@@ -14,7 +15,8 @@ namespace thermedge::detail {
 // time. In whole numbers, so that a transposed frame has the transposed mask.
 class StripeMask {
  public:
-  static constexpr std::uint16_t kNoEdge = std::numeric_limits<std::uint16_t>::max() / 2;
+  static constexpr std::uint16_t kNoEdge = 2 * kFarSquares - 1;
+  static_assert(kNoEdge > kLargestLag);
 
   void prepare(int width, int height);
 
@@ -22,11 +24,12 @@ class StripeMask {
   // reach_down) of the frame less its offsets exceeds `gradients` times what pixel noise of `sigma`
   // counts makes of it. Offsets in units of sigma. With `with_long` also those
   // that show in means along the columns (for reach_right) or the rows (for reach_down) only.
+  // Reads up to a vector of 64 bytes behind the frame's rows, as Image has them.
   void find(ImageView<const std::uint16_t> frame, std::span<const double> columns,
             std::span<const double> rows, double sigma, double gradients, bool with_long);
 
   // reach(x, y / 2): how far to the right of pixel (x, y) the next edge is, px; 0 on an edge;
-  // kNoEdge or more where there is none.
+  // kNoEdge or more where there is none so near.
   // Half as many rows as the frame, rounded up.
   void reach_right(ImageView<std::uint16_t> reach) const;
   // The same downwards; a picture of the transposed frame.
@@ -36,18 +39,23 @@ class StripeMask {
   void add_up(ImageView<const std::uint16_t> frame, std::span<const double> columns,
               std::span<const double> rows, double sigma);
   void smooth();
-
-  void find_long(double sigma);
+  void mark_gradients(double threshold);
+  void find_steps(double deviation);
+  void add_windows(ImageView<const std::int32_t> steps, int reach, ImageView<std::int32_t> sums);
+  double usual_sum(ImageView<const std::int32_t> sums, int reach);
   void mark_long(ImageView<const std::int32_t> steps, double deviation,
-                 ImageView<std::uint8_t> marks);
+                 ImageView<std::int32_t> sums, ImageView<std::uint8_t> marks);
 
+  int across_ = 0;  // squares
+  int down_ = 0;
   Image<std::int32_t> squares_, smoothed_;  // with a margin
-  // Edges that change along a row; and along a column, of the transposed frame.
-  Image<std::uint8_t> upright_edges_, level_edges_;
-  // Long edges along the columns, and along the rows of the transposed frame.
-  Image<std::int32_t> upright_steps_, level_steps_;
-  Image<std::uint8_t> upright_, level_;
-  std::vector<std::int32_t> step_sums_;
+  // Changes along a row; and along a column, of the frame and of the transposed one.
+  Image<std::int32_t> upright_steps_, level_steps_, transposed_steps_;
+  Image<std::int32_t> upright_sums_, level_sums_;  // of windows of them
+  // Edges between columns; and between rows, of the frame and of the transposed one. With unmarked
+  // squares behind each row.
+  Image<std::uint8_t> upright_, level_, transposed_;
+  Image<std::int32_t> ends_;  // two rows for the windows: none, and their first sums
   std::vector<float> sample_;
   std::vector<std::int32_t> of_columns_, of_rows_;  // offsets of the squares
 };

@@ -8,15 +8,20 @@
 #include <iterator>
 #include <span>
 
+#include "nth_value.hpp"
 #include "robust_line.hpp"
 #include "simd/lag_sums.hpp"
+#include "simd/stripe_mask.hpp"
 #include "stripe_mask.hpp"
+#include "transpose.hpp"
 
 namespace thermedge {
 namespace {
 
-constexpr std::array kLags = {1, 2, 3, 4, 6, 8};
-constexpr int kLargestLag = kLags.back();
+using detail::kLags;
+using detail::kLargestLag;
+constexpr int kBandWidth = kLargestLag + 1;
+constexpr int kNumberOfLags = static_cast<int>(kLags.size());
 constexpr int kSmallestSide = 64;
 // Differences beyond this many sigma are edges of the scene, whatever lies between.
 constexpr double kEdgeSigmas = 5;
@@ -40,7 +45,26 @@ constexpr double kUsualStripes = 1.0 / 3;
 // faint edges.
 constexpr double kStrong = 0.6;
 
-std::size_t index(int i) { return static_cast<std::size_t>(i); }
+constexpr std::size_t index(int i) { return static_cast<std::size_t>(i); }
+
+// Standard deviations of the difference between the means of `left` and of `right` samples.
+class JumpRoots {
+ public:
+  JumpRoots() {
+    for (int left = 1; left <= kMost; ++left) {
+      for (int right = 1; right <= kMost; ++right) {
+        roots_[index(left * kSide + right)] = std::sqrt(1.0 / left + 1.0 / right);
+      }
+    }
+  }
+  [[nodiscard]] double of(int left, int right) const { return roots_[index(left * kSide + right)]; }
+
+ private:
+  static constexpr int kMost = kJumpWindows.back();
+  static constexpr int kSide = kMost + 1;
+  std::array<double, index(kSide* kSide)> roots_{};
+};
+const JumpRoots kJumpRoots;
 
 // Offsets of the columns of one frame.
 class ColumnOffsets {
@@ -58,25 +82,21 @@ class ColumnOffsets {
   [[nodiscard]] double deviation() const { return deviation_; }
 
  private:
-  struct Pair {
-    double difference = 0;
-    double weight = 0;
-  };
-  struct Sum {
-    std::int32_t sum = 0;
-    std::int32_t number = 0;
-  };
-
-  [[nodiscard]] Sum& sum(int lag_index, int x) { return sums_[index(lag_index * columns_ + x)]; }
-  [[nodiscard]] Pair& pair(int lag_index, int x) { return pairs_[index(lag_index * columns_ + x)]; }
+  // Of the pairs of columns x and x + kLags[lag_index].
+  [[nodiscard]] double* differences(int lag_index) {
+    return &differences_[index(lag_index * columns_)];
+  }
+  [[nodiscard]] double* weights(int lag_index) { return &weights_[index(lag_index * columns_)]; }
 
   void add_up(ImageView<const std::uint16_t> counts, ImageView<const std::uint16_t> reach,
               int limit);
   void find_pairs(double sigma);
   detail::Line remove_slope();
   void number_segments(std::span<const int> jumps);
+  void set_up_equations(double scale, std::span<const int> jumps);
   void solve(double scale, std::span<const int> jumps, std::span<double> result);
   void find_jumps(double deviation);
+  void find_clearness(double deviation);
   [[nodiscard]] double jump_z(int x, double deviation) const;
   [[nodiscard]] double variance_of_noise();
   double white_deviation(std::span<const double> profile);
@@ -84,10 +104,11 @@ class ColumnOffsets {
   double deviation_ = 0;
   int columns_ = 0;
   int rows_ = 0;
-  std::vector<Sum> sums_;                             // of each lag and column
-  std::vector<std::int16_t> row_sums_, row_numbers_;  // of some rows
-  std::vector<Pair> pairs_;                           // of each lag
-  std::vector<double> band_;                          // of the normal equations, row by row
+  Image<std::int16_t> row_sums_, row_numbers_;  // of some rows; a row for each lag
+  Image<std::int32_t> sums_, numbers_;          // of all rows
+  std::vector<double> differences_, weights_;   // of each lag
+  std::vector<double> band_;                    // of the normal equations, column by column
+  std::vector<double> right_side_;              // of them
   std::vector<double> profile_, offsets_, background_, sorted_, cumulated_, clearness_;
   std::vector<detail::WeightedPoint> slopes_;
   std::vector<int> jumps_;  // a jump is between a column and the next
@@ -98,12 +119,14 @@ void ColumnOffsets::prepare(int columns, int rows) {
   columns_ = columns;
   rows_ = rows;
   const std::size_t n = index(columns);
-  sums_.resize(kLags.size() * n);
-  const std::size_t padded = n + Image<std::int16_t>::kAlignmentBytes;
-  row_sums_.resize(padded);
-  row_numbers_.resize(padded);
-  pairs_.resize(kLags.size() * n);
-  band_.resize((kLargestLag + 1) * n);
+  row_sums_.resize(columns, kNumberOfLags);
+  row_numbers_.resize(columns, kNumberOfLags);
+  sums_.resize(columns, kNumberOfLags);
+  numbers_.resize(columns, kNumberOfLags);
+  differences_.resize(kLags.size() * n);
+  weights_.resize(kLags.size() * n);
+  band_.resize(kBandWidth * (n + kLargestLag));
+  right_side_.resize(n + kLargestLag);
   profile_.resize(n);
   offsets_.assign(n, 0.0);
   background_.assign(n, 0.0);
@@ -119,18 +142,19 @@ void ColumnOffsets::prepare(int columns, int rows) {
 
 void ColumnOffsets::add_up(ImageView<const std::uint16_t> counts,
                            ImageView<const std::uint16_t> reach, int limit) {
-  std::fill(sums_.begin(), sums_.end(), Sum{});
-  for (int i = 0; i < static_cast<int>(kLags.size()); ++i) {
-    const int pairs = columns_ - kLags[index(i)];
-    for (int y = 0; y < rows_; y += detail::kMostLagRows) {
-      const int rows = std::min(detail::kMostLagRows, rows_ - y);
-      detail::lag_sums(counts.crop(0, y, columns_, rows),
-                       reach.crop(0, y / 2, columns_, (rows + 1) / 2), kLags[index(i)], limit,
-                       row_sums_.data(), row_numbers_.data());
-      for (int x = 0; x < pairs; ++x) {
-        sum(i, x).sum += row_sums_[index(x)];
-        sum(i, x).number += row_numbers_[index(x)];
-      }
+  fill_pixels(sums_.view(), 0);
+  fill_pixels(numbers_.view(), 0);
+  const int most_rows = detail::most_lag_rows(limit);
+  for (int y = 0; y < rows_; y += most_rows) {
+    const int rows = std::min(most_rows, rows_ - y);
+    detail::lag_sums(counts.crop(0, y, columns_, rows),
+                     reach.crop(0, y / 2, columns_, (rows + 1) / 2), limit, row_sums_,
+                     row_numbers_);
+    for (int i = 0; i < kNumberOfLags; ++i) {
+      std::transform(row_sums_.row(i), row_sums_.row(i) + columns_, sums_.row(i), sums_.row(i),
+                     std::plus<>());
+      std::transform(row_numbers_.row(i), row_numbers_.row(i) + columns_, numbers_.row(i),
+                     numbers_.row(i), std::plus<>());
     }
   }
 }
@@ -138,13 +162,20 @@ void ColumnOffsets::add_up(ImageView<const std::uint16_t> counts,
 // The mean difference of each pair of columns. Neighbours without enough rows between which there
 // is no edge are taken for equal, so that the chain does not break.
 void ColumnOffsets::find_pairs(double sigma) {
-  for (int i = 0; i < static_cast<int>(kLags.size()); ++i) {
-    const int lag = kLags[index(i)];
-    for (int x = 0; x + lag < columns_; ++x) {
-      const Sum& all = sum(i, x);
-      const bool enough = all.number >= kLeastShare * rows_;
-      pair(i, x) = enough ? Pair{all.sum / (sigma * all.number), 1.0 * all.number / rows_}
-                          : Pair{0, lag == 1 ? 1.0 : 0.0};
+  for (int i = 0; i < kNumberOfLags; ++i) {
+    const std::int32_t* sums = sums_.row(i);
+    const std::int32_t* numbers = numbers_.row(i);
+    double* difference = differences(i);
+    double* weight = weights(i);
+    const double weight_of_none = i == 0 ? 1 : 0;
+    const double rows = rows_;
+    const double least = kLeastShare * rows;
+    for (int x = 0; x + kLags[index(i)] < columns_; ++x) {
+      const double number = numbers[x];
+      const bool enough = number >= least;
+      const double mean = sums[x] / (sigma * (enough ? number : 1.0));
+      difference[x] = enough ? mean : 0;
+      weight[x] = enough ? number / rows : weight_of_none;
     }
   }
 }
@@ -152,20 +183,22 @@ void ColumnOffsets::find_pairs(double sigma) {
 // What a smooth scene makes of the differences, such as that of a lens darker towards the corners:
 // a slope that changes evenly from side to side, seen over the longest lag.
 detail::Line ColumnOffsets::remove_slope() {
-  constexpr int kLongest = static_cast<int>(kLags.size()) - 1;
+  constexpr int kLongest = kNumberOfLags - 1;
   const auto middle_of = [](int x, int lag) { return x + 0.5 * lag; };
   slopes_.clear();
   for (int x = 0; x + kLargestLag < columns_; ++x) {
-    const Pair& seen = pair(kLongest, x);
-    if (seen.weight > 0) {
-      slopes_.push_back({middle_of(x, kLargestLag), seen.difference / kLargestLag, seen.weight});
+    const double weight = weights(kLongest)[x];
+    if (weight > 0) {
+      slopes_.push_back(
+          {middle_of(x, kLargestLag), differences(kLongest)[x] / kLargestLag, weight});
     }
   }
   const detail::Line slope = detail::robust_line(slopes_, sorted_);
-  for (int i = 0; i < static_cast<int>(kLags.size()); ++i) {
+  for (int i = 0; i < kNumberOfLags; ++i) {
     const int lag = kLags[index(i)];
+    double* difference = differences(i);
     for (int x = 0; x + lag < columns_; ++x) {
-      pair(i, x).difference -= lag * slope.at(middle_of(x, lag));
+      difference[x] -= lag * slope.at(middle_of(x, lag));
     }
   }
   return slope;
@@ -180,60 +213,62 @@ void ColumnOffsets::number_segments(std::span<const int> jumps) {
   }
 }
 
-// Minimises the sum over pairs of scale * weight * (c(x + lag) - c(x) - difference)^2 and of all
-// c(x)^2; pairs across a jump are left out. Banded Cholesky decomposition.
-void ColumnOffsets::solve(double scale, std::span<const int> jumps, std::span<double> result) {
-  constexpr int kWidth = kLargestLag + 1;
-  const int n = columns_;
+// Fills the lower half of the matrix into band_, element (x + l, x) at x * kBandWidth + l, and
+// right_side_. Behind the last column there are kLargestLag empty ones.
+void ColumnOffsets::set_up_equations(double scale, std::span<const int> jumps) {
   number_segments(jumps);
-  // band[x * kWidth + kLargestLag - l] is the element (x, x - l).
   std::fill(band_.begin(), band_.end(), 0.0);
-  std::fill(result.begin(), result.end(), 0.0);
-  const auto element = [&](int x, int l) -> double& {
-    return band_[index(x * kWidth + kLargestLag - l)];
-  };
-  for (int x = 0; x < n; ++x) {
-    element(x, 0) = 1;
+  std::fill(right_side_.begin(), right_side_.end(), 0.0);
+  for (int x = 0; x < columns_; ++x) {
+    band_[index(x * kBandWidth)] = 1;
   }
-  for (int i = 0; i < static_cast<int>(kLags.size()); ++i) {
+  for (int i = 0; i < kNumberOfLags; ++i) {
     const int lag = kLags[index(i)];
-    for (int x = 0; x + lag < n; ++x) {
-      if (segment_[index(x)] != segment_[index(x + lag)]) {
-        continue;
-      }
-      const double weight = scale * pair(i, x).weight;
-      element(x, 0) += weight;
-      element(x + lag, 0) += weight;
-      element(x + lag, lag) -= weight;
-      result[index(x + lag)] += weight * pair(i, x).difference;
-      result[index(x)] -= weight * pair(i, x).difference;
+    for (int x = 0; x + lag < columns_; ++x) {
+      const bool same = segment_[index(x)] == segment_[index(x + lag)];
+      const double weight = same ? scale * weights(i)[x] : 0;
+      double* column = &band_[index(x * kBandWidth)];
+      column[0] += weight;
+      column[lag * kBandWidth] += weight;
+      column[lag] -= weight;
+      const double moment = weight * differences(i)[x];
+      right_side_[index(x + lag)] += moment;
+      right_side_[index(x)] -= moment;
     }
   }
-  for (int x = 0; x < n; ++x) {
-    double* row = &band_[index(x * kWidth)];
-    const int first = std::max(x - kLargestLag, 0);
-    for (int j = first; j <= x; ++j) {
-      const double* other = &band_[index(j * kWidth)];
-      // Products of the elements of both rows in the columns that both have.
-      const int begin = std::max(first, j - kLargestLag);
-      double value = row[kLargestLag - (x - j)];
-      for (int k = begin; k < j; ++k) {
-        value -= row[kLargestLag - (x - k)] * other[kLargestLag - (j - k)];
+}
+
+// Minimises the sum over pairs of scale * weight * (c(x + lag) - c(x) - difference)^2 and of all
+// c(x)^2; pairs across a jump are left out. Banded Cholesky decomposition: each column that is done
+// is taken off those behind it.
+void ColumnOffsets::solve(double scale, std::span<const int> jumps, std::span<double> result) {
+  set_up_equations(scale, jumps);
+  for (int x = 0; x < columns_; ++x) {
+    double* column = &band_[index(x * kBandWidth)];
+    double* right = &right_side_[index(x)];
+    column[0] = std::sqrt(column[0]);
+    right[0] /= column[0];
+    for (int i = 1; i <= kLargestLag; ++i) {
+      column[i] /= column[0];
+    }
+#pragma GCC unroll 8
+    for (int i = 1; i <= kLargestLag; ++i) {
+      double* other = column + i * kBandWidth - i;
+#pragma GCC unroll 8
+      for (int j = i; j <= kLargestLag; ++j) {
+        other[j] -= column[j] * column[i];
       }
-      row[kLargestLag - (x - j)] = j < x ? value / other[kLargestLag] : std::sqrt(value);
+      right[i] -= column[i] * right[0];
     }
-    double value = result[index(x)];
-    for (int k = first; k < x; ++k) {
-      value -= row[kLargestLag - (x - k)] * result[index(k)];
-    }
-    result[index(x)] = value / row[kLargestLag];
   }
-  for (int x = n - 1; x >= 0; --x) {
-    double value = result[index(x)];
-    for (int k = x + 1; k <= std::min(x + kLargestLag, n - 1); ++k) {
-      value -= element(k, k - x) * result[index(k)];
+  for (int x = columns_ - 1; x >= 0; --x) {
+    const double* column = &band_[index(x * kBandWidth)];
+    double* right = &right_side_[index(x)];
+    for (int i = 1; i <= kLargestLag; ++i) {
+      right[0] -= column[i] * right[i];
     }
-    result[index(x)] = value / element(x, 0);
+    right[0] /= column[0];
+    result[index(x)] = right[0];
   }
 }
 
@@ -243,10 +278,9 @@ double ColumnOffsets::white_deviation(std::span<const double> profile) {
   for (std::size_t x = 0; x + 2 < profile.size(); ++x) {
     sorted_.push_back(std::abs(profile[x] - 2 * profile[x + 1] + profile[x + 2]));
   }
-  const auto middle = sorted_.begin() + static_cast<std::ptrdiff_t>(sorted_.size() / 2);
-  std::nth_element(sorted_.begin(), middle, sorted_.end());
   constexpr double kSigmaOverMad = 1.4826;
-  return kSigmaOverMad * *middle / std::sqrt(6.0);
+  const double middle = detail::nth_value(std::span(sorted_), sorted_.size() / 2);
+  return kSigmaOverMad * middle / std::sqrt(6.0);
 }
 
 // Lasting jumps of profile_, whose white part has this deviation, one after the other, the clearest
@@ -265,7 +299,7 @@ void ColumnOffsets::find_jumps(double deviation) {
       clearness_[index(x)] = jump_z(x, deviation);
     }
   };
-  update(0, n - 1);
+  find_clearness(deviation);
   while (jumps_.size() < kMostJumps) {
     const auto best = std::max_element(clearness_.begin(), clearness_.end() - 1);
     if (*best < kJumpZ) {
@@ -283,6 +317,25 @@ void ColumnOffsets::find_jumps(double deviation) {
   }
 }
 
+// jump_z of all samples where no jump is known yet.
+void ColumnOffsets::find_clearness(double deviation) {
+  const int last = columns_ - 2;
+  const int margin = kJumpWindows.back() - 1;  // where windows are cut off
+  for (int x = 0; x <= last; ++x) {
+    const bool whole = x >= margin && x + margin < last;
+    clearness_[index(x)] = whole ? 0 : jump_z(x, deviation);
+  }
+  for (const int window : kJumpWindows) {
+    const double noise = deviation * kJumpRoots.of(window, window);
+    for (int x = margin; x + margin < last; ++x) {
+      const double* at = &cumulated_[index(x + 1)];
+      const double step = (at[window] - at[0]) / window - (at[0] - at[-window]) / window;
+      const double z = std::abs(step) / noise;
+      clearness_[index(x)] = clearness_[index(x)] < z ? z : clearness_[index(x)];
+    }
+  }
+}
+
 // How clearly the profile jumps behind sample `x`: the largest z of all windows.
 double ColumnOffsets::jump_z(int x, double deviation) const {
   double best = 0;
@@ -296,7 +349,7 @@ double ColumnOffsets::jump_z(int x, double deviation) const {
     }
     const double step = (cumulated_[index(end)] - cumulated_[index(x + 1)]) / right -
                         (cumulated_[index(x + 1)] - cumulated_[index(begin)]) / left;
-    best = std::max(best, std::abs(step) / (deviation * std::sqrt(1.0 / left + 1.0 / right)));
+    best = std::max(best, std::abs(step) / (deviation * kJumpRoots.of(left, right)));
   }
   return best;
 }
@@ -306,7 +359,7 @@ double ColumnOffsets::jump_z(int x, double deviation) const {
 double ColumnOffsets::variance_of_noise() {
   double inverse_weights = 0;
   for (int x = 0; x + 1 < columns_; ++x) {
-    inverse_weights += 1 / pair(0, x).weight;
+    inverse_weights += 1 / weights(0)[x];
   }
   return inverse_weights / (1.0 * rows_ * (columns_ - 1));
 }
@@ -379,11 +432,7 @@ void StripeFinder::measure(ImageView<const std::uint16_t> frame, double sigma_co
     return;
   }
   copy_pixels(frame, impl_->copy.view());
-  for (int y = 0; y < frame.height(); ++y) {
-    for (int x = 0; x < frame.width(); ++x) {
-      impl_->transposed(y, x) = frame(x, y);
-    }
-  }
+  detail::transpose(frame, impl_->transposed.view());
   bool in_columns = false;
   bool in_rows = false;
   const auto measure_both = [&] {
@@ -400,8 +449,8 @@ void StripeFinder::measure(ImageView<const std::uint16_t> frame, double sigma_co
   measure_both();
   for (const double gradient : kEdgeGradients) {
     const bool weak = std::max(impl_->columns.deviation(), impl_->rows.deviation()) < kStrong;
-    impl_->mask.find(frame, impl_->columns.background(), impl_->rows.background(), sigma_counts,
-                     gradient, gradient == kEdgeGradients.back() && weak);
+    impl_->mask.find(impl_->copy, impl_->columns.background(), impl_->rows.background(),
+                     sigma_counts, gradient, gradient == kEdgeGradients.back() && weak);
     impl_->mask.reach_right(impl_->reach);
     impl_->mask.reach_down(impl_->transposed_reach);
     measure_both();
@@ -423,11 +472,10 @@ void remove_stripes(const StripeOffsets& offsets, ImageView<std::uint16_t> frame
   }
   for (int y = 0; y < frame.height(); ++y) {
     const float of_row = offsets.rows.empty() ? 0 : offsets.rows[index(y)];
-    std::uint16_t* row = frame.row(y);
-    for (int x = 0; x < frame.width(); ++x) {
-      const float of_column = offsets.columns.empty() ? 0 : offsets.columns[index(x)];
-      const float value = static_cast<float>(row[x]) - of_column - of_row;
-      row[x] = static_cast<std::uint16_t>(std::clamp(value, 0.0F, 65535.0F) + 0.5F);
+    if (offsets.columns.empty()) {
+      detail::subtract_offset_row(of_row, frame.width(), frame.row(y));
+    } else {
+      detail::subtract_offsets_row(offsets.columns.data(), of_row, frame.width(), frame.row(y));
     }
   }
 }

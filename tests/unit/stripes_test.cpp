@@ -227,27 +227,31 @@ TEST(Stripes, AreTakenAwayRoundedAndWithinTheRange) {
 }
 
 TEST(Stripes, LagSumsAreThoseOfThePairsWithinTheLimit) {
-  for (const int width : {1, 2, 15, 16, 17, 33, 70}) {
-    for (const int height : {1, 7, 16}) {
-      auto counts = test::noise_image<std::uint16_t>(width, height, 300, 40, 5);
-      counts(0, 0) = 65535;
-      auto reach = test::noise_image<std::uint16_t>(width, (height + 1) / 2, 10, 5, 6);
-      for (const int lag : {1, 3, 12}) {
+  constexpr int kLags = static_cast<int>(detail::kLags.size());
+  for (const int limit : {50, detail::kLargestLagDifference}) {
+    for (const int width : {1, 2, 9, 15, 16, 17, 33, 70}) {
+      for (const int height : {1, 7, detail::most_lag_rows(limit)}) {
+        auto counts = test::noise_image<std::uint16_t>(width, height, 3000, 0.8 * limit, 5);
+        counts(0, 0) = 65535;
+        const auto reach = test::noise_image<std::uint16_t>(width, (height + 1) / 2, 10, 5, 6);
         test::for_each_simd_target([&](const std::string&) {
-          std::vector<std::int16_t> sums(static_cast<std::size_t>(width) + 64);
-          std::vector<std::int16_t> numbers(sums.size());
-          detail::lag_sums(counts, reach, lag, 50, sums.data(), numbers.data());
-          for (int x = 0; x < width - lag; ++x) {
-            int sum = 0;
-            int number = 0;
-            for (int y = 0; y < height; ++y) {
-              const int difference = counts(x + lag, y) - counts(x, y);
-              const bool counted = std::abs(difference) <= 50 && reach(x, y / 2) > lag;
-              sum += counted ? difference : 0;
-              number += counted ? 1 : 0;
+          Image<std::int16_t> sums(width, kLags);
+          Image<std::int16_t> numbers(width, kLags);
+          detail::lag_sums(counts, reach, limit, sums, numbers);
+          for (int i = 0; i < kLags; ++i) {
+            const int lag = detail::kLags[static_cast<std::size_t>(i)];
+            for (int x = 0; x < width - lag; ++x) {
+              int sum = 0;
+              int number = 0;
+              for (int y = 0; y < height; ++y) {
+                const int difference = counts(x + lag, y) - counts(x, y);
+                const bool counted = std::abs(difference) <= limit && reach(x, y / 2) > lag;
+                sum += counted ? difference : 0;
+                number += counted ? 1 : 0;
+              }
+              ASSERT_EQ(sums(x, i), sum);
+              ASSERT_EQ(numbers(x, i), number);
             }
-            ASSERT_EQ(sums[static_cast<std::size_t>(x)], sum);
-            ASSERT_EQ(numbers[static_cast<std::size_t>(x)], number);
           }
         });
       }
