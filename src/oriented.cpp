@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <span>
 #include <vector>
 
 #include "denoise_frame.hpp"
@@ -255,10 +256,12 @@ struct OrientedEdges::Impl {
   void differentiate(const Derivative& kernel, int margin, int y_begin, int y_end, float* scratch);
   void find_fine(Runner& runner, double sigma_counts);
   void project(int band, int y_begin, int y_end, double sigma_counts);
-  void suppress(int y_begin, int y_end);
+  void find_side_offsets();
+  void suppress(int band, int y_begin, int y_end);
   void merge_fine();
   [[nodiscard]] float prominence_at(int x, int y) const;
-  void classify(int x, int y);
+  void classify(int x, int y, float over);
+  void classify_row(int y, std::span<std::int32_t> xs, float* over);
 
   OrientedOptions options;
   Derivative fine;
@@ -279,6 +282,10 @@ struct OrientedEdges::Impl {
   Image<float> strength;
   Image<std::int32_t> direction;
   Image<float> prominence;
+  // Of one row, for each band: pixels on ridges, and their prominences.
+  Image<std::int32_t> places;
+  Image<float> of_places;
+  std::array<std::int32_t, 2 * kDirections * kSidesPx.size()> side_offsets{};
   Image<std::uint8_t> fine_classes, edges;
   std::vector<std::ptrdiff_t> group;
 
@@ -299,6 +306,9 @@ void OrientedEdges::Impl::prepare(int frame_width, int frame_height) {
   strength.resize(width + slack, height);
   direction.resize(width + slack, height);
   prominence.resize(width, height);
+  places.resize(width + slack, bands);
+  of_places.resize(width + slack, bands);
+  find_side_offsets();
   fine_magnitude.resize(width + slack, height);
   fine_classes.resize(width + 64, height);
   edges.resize(width, height);
@@ -414,47 +424,67 @@ float OrientedEdges::Impl::prominence_at(int x, int y) const {
 }
 
 // Sets the prominence and the class, before hysteresis, of a pixel on a ridge.
-void OrientedEdges::Impl::classify(int x, int y) {
-  const float over = prominence_at(x, y);
+void OrientedEdges::Impl::classify(int x, int y, float over) {
   prominence(x, y) = over;
   edges(x, y) = over > static_cast<float>(options.high)  ? detail::kStrongEdge
                 : over > static_cast<float>(options.low) ? detail::kWeakEdge
                                                          : detail::kNoEdge;
 }
 
-// Leaves in `edges` the class of each pixel before hysteresis.
-void OrientedEdges::Impl::suppress(int y_begin, int y_end) {
-  const auto low = static_cast<float>(options.low);
-  struct Neighbours {
-    std::ptrdiff_t first, second;
-    float share;
+// Classifies the pixels of row y at these places, in ascending order. Away from the border, where
+// nothing is mirrored, all together.
+void OrientedEdges::Impl::classify_row(int y, std::span<std::int32_t> xs, float* over) {
+  const int reach = kSidesPx[sides - 1];
+  const bool inside = y >= reach && y < height - reach;
+  const auto begin = std::lower_bound(xs.begin(), xs.end(), inside ? reach : width);
+  const auto end = std::lower_bound(begin, xs.end(), width - reach);
+  const auto one_by_one = [&](auto from, auto to) {
+    for (auto x = from; x != to; ++x) {
+      classify(*x, y, prominence_at(*x, y));
+    }
   };
-  std::array<Neighbours, 2 * kDirections> neighbours;
-  for (std::size_t i = 0; i < neighbours.size(); ++i) {
-    const std::ptrdiff_t stride = strength.stride();
-    neighbours[i] = {steps[i].first_y * stride + steps[i].first_x,
-                     steps[i].second_y * stride + steps[i].second_x, steps[i].share};
+  one_by_one(xs.begin(), begin);
+  one_by_one(end, xs.end());
+  const auto count = static_cast<int>(end - begin);
+  if (count == 0) {
+    return;
   }
+  const std::int32_t* first = xs.data() + (begin - xs.begin());
+  detail::prominence_at_places(strength.row(y), direction.row(y), side_offsets.data(),
+                               static_cast<int>(sides), first, count, over);
+  for (int i = 0; i < count; ++i) {
+    classify(first[i], y, over[i]);
+  }
+}
+
+// Where the sides of a pixel lie, in elements from it.
+void OrientedEdges::Impl::find_side_offsets() {
+  for (std::size_t side = 0; side < kSidesPx.size(); ++side) {
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+      side_offsets[side * steps.size() + i] = static_cast<std::int32_t>(
+          steps[i].side_y[side] * strength.stride() + steps[i].side_x[side]);
+    }
+  }
+}
+
+// Leaves in `edges` the class of each pixel before hysteresis.
+void OrientedEdges::Impl::suppress(int band, int y_begin, int y_end) {
+  const auto low = static_cast<float>(options.low);
+  const detail::DiagonalShares shares = {steps[0].share, steps[1].share, steps[2].share,
+                                         steps[3].share};
+  std::int32_t* found = places.row(band);
   for (int y = y_begin; y < y_end; ++y) {
     std::fill_n(edges.row(y), width, detail::kNoEdge);
     std::fill_n(prominence.row(y), width, 0.0F);
-    if (y == 0 || y == height - 1) {
+    if (y == 0 || y == height - 1 || width < 3) {
       continue;
     }
-    const float* row = strength.row(y);
-    const std::int32_t* directions = direction.row(y);
-    for (int x = 1; x + 1 < width; ++x) {
-      const float* at = row + x;
-      if (!(*at > low)) {
-        continue;
-      }
-      const auto [first, second, share] = neighbours[static_cast<std::size_t>(directions[x])];
-      const float ahead = at[first] + share * (at[second] - at[first]);
-      const float behind = at[-first] + share * (at[-second] - at[-first]);
-      if (*at >= ahead && *at > behind) {
-        classify(x, y);
-      }
-    }
+    const int count = detail::find_ridges_row(strength.row(y) + 1, strength.stride(),
+                                              direction.row(y) + 1, shares, low, width - 2, found);
+    std::transform(found, found + count, found, [](std::int32_t x) { return x + 1; });
+    // Kernels look at whole vectors.
+    std::fill_n(found + count, detail::kOrientedSlack, count > 0 ? found[count - 1] : 0);
+    classify_row(y, {found, static_cast<std::size_t>(count)}, of_places.row(band));
   }
 }
 
@@ -481,7 +511,7 @@ void OrientedEdges::Impl::merge_fine() {
       }
     }
   });
-  for_each_fine([&](int x, int y) { classify(x, y); });
+  for_each_fine([&](int x, int y) { classify(x, y, prominence_at(x, y)); });
 }
 
 OrientedEdges::OrientedEdges(const OrientedOptions& options)
@@ -514,7 +544,8 @@ Result<OrientedResult> OrientedEdges::run(ImageView<const float> in, double sigm
   self.for_each_band(runner, [&](int band, int y_begin, int y_end) {
     self.project(band, y_begin, y_end, sigma_counts);
   });
-  self.for_each_band(runner, [&](int, int y_begin, int y_end) { self.suppress(y_begin, y_end); });
+  self.for_each_band(
+      runner, [&](int band, int y_begin, int y_end) { self.suppress(band, y_begin, y_end); });
   if (self.options.fine_px > 0) {
     self.merge_fine();
   }

@@ -1,6 +1,7 @@
 // Responses of oriented kernels.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 
@@ -24,5 +25,25 @@ void project_row(const float* gx, const float* gy, float a, float b, int width, 
 void keep_stronger_row(const float* centre, const std::ptrdiff_t* offsets, const float* weights,
                        int radius, int index, int reverse, int width, float* strength,
                        std::int32_t* direction);
+
+// Directions of edges are 0 .. 23, in steps of 15 degrees; those 12 apart have their sides swapped.
+// The share of the diagonal neighbour by how far a direction is off an axis: 0, 15, 30, 45 degrees.
+using DiagonalShares = std::array<float, 4>;
+
+// Writes to `places`, in ascending order, those x of 0 .. count - 1 at which strength[x] > low is
+// not less than the strength one pixel ahead across the edge and more than that behind, between two
+// neighbours each. Rows of strength are `stride` apart. Returns how many. Writes up to a vector
+// behind the last.
+[[nodiscard]] int find_ridges_row(const float* strength, std::ptrdiff_t stride,
+                                  const std::int32_t* direction, const DiagonalShares& shares,
+                                  float low, int count, std::int32_t* places);
+
+// out[i] = the strength at places[i] less half of the least sum of both sides, over `sides` pairs
+// of them, side k of a direction at +-offsets[24 k + direction]. A side whose direction is off by
+// more than 45 degrees counts as 0. `places` and `out` are read and written up to a vector behind
+// the last.
+void prominence_at_places(const float* strength, const std::int32_t* direction,
+                          const std::int32_t* offsets, int sides, const std::int32_t* places,
+                          int count, float* out);
 
 }  // namespace thermedge::detail
