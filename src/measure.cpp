@@ -9,6 +9,8 @@
 #include <numbers>
 #include <optional>
 
+#include "simd/edgels.hpp"
+
 namespace thermedge {
 namespace {
 
@@ -41,20 +43,16 @@ class Curve {
     return point(index);
   }
 
-  // Unit normal, to the right of the walking direction. The tangent is the central difference of
-  // the curve smoothed by the binomial weights of order 16 (sigma 2); both in one odd kernel.
-  [[nodiscard]] Vector normal(std::ptrdiff_t index) const {
-    constexpr std::array<double, 9> kWeights = {4862, 7072, 6188, 3808, 1700, 544, 119, 16, 1};
+  // As detail::tangents has it.
+  [[nodiscard]] Vector tangent(std::ptrdiff_t index) const {
     Vector tangent;
-    for (std::size_t k = 0; k < kWeights.size(); ++k) {
-      const auto step = static_cast<std::ptrdiff_t>(k) + 1;
-      const Vector ahead = at(index + step);
-      const Vector behind = at(index - step);
-      tangent.x += kWeights[k] * (ahead.x - behind.x);
-      tangent.y += kWeights[k] * (ahead.y - behind.y);
+    for (int k = 1; k <= detail::kTangentReach; ++k) {
+      const Vector ahead = at(index + k);
+      const Vector behind = at(index - k);
+      tangent.x += detail::kTangentWeights[k - 1] * (ahead.x - behind.x);
+      tangent.y += detail::kTangentWeights[k - 1] * (ahead.y - behind.y);
     }
-    const double length = std::sqrt(tangent.x * tangent.x + tangent.y * tangent.y);
-    return length > 0 ? Vector{-tangent.y / length, tangent.x / length} : Vector{1, 0};
+    return tangent;
   }
 
  private:
@@ -71,13 +69,47 @@ class Curve {
   bool closed_;
 };
 
-void set_normals(Edgels& edgels, const Edge& edge) {
-  const Curve curve(edgels, edge);
-  for (std::uint32_t i = 0; i < edge.edgels.count; ++i) {
-    const Vector normal = curve.normal(i);
-    edgels.nx[edge.edgels.first + i] = static_cast<float>(normal.x);
-    edgels.ny[edge.edgels.first + i] = static_cast<float>(normal.y);
+// Unit normal, to the right of the walking direction.
+void set_normal(Vector tangent, std::size_t i, Edgels& edgels) {
+  const double length = std::sqrt(tangent.x * tangent.x + tangent.y * tangent.y);
+  edgels.nx[i] = length > 0 ? static_cast<float>(-tangent.y / length) : 1;
+  edgels.ny[i] = length > 0 ? static_cast<float>(tangent.x / length) : 0;
+}
+
+// task(first, count) for parts of a range that kernels take at once.
+template <class F>
+void for_each_run(Range range, F&& task) {
+  for (std::size_t done = 0; done < range.count; done += detail::kMostEdgels) {
+    task(range.first + done, std::min<std::size_t>(range.count - done, detail::kMostEdgels));
   }
+}
+
+using RunOfDoubles = std::array<double, detail::kMostEdgels>;
+
+void set_normals(Edgels& edgels, const Edge& edge) {
+  constexpr std::uint32_t kReach = detail::kTangentReach;
+  const auto [first, count] = edge.edgels;
+  const bool is_long = count > 2 * kReach;
+  const Curve curve(edgels, edge);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    if (!is_long || i < kReach || i >= count - kReach) {
+      set_normal(curve.tangent(i), first + i, edgels);
+    } else {
+      i = count - kReach - 1;  // the middle follows
+    }
+  }
+  if (!is_long) {
+    return;
+  }
+  for_each_run({first + kReach, count - 2 * kReach}, [&](std::size_t begin, std::size_t run) {
+    RunOfDoubles along_x;
+    RunOfDoubles along_y;
+    detail::tangents(&edgels.x[begin], static_cast<int>(run), along_x.data());
+    detail::tangents(&edgels.y[begin], static_cast<int>(run), along_y.data());
+    for (std::size_t i = 0; i < run; ++i) {
+      set_normal({along_x[i], along_y[i]}, begin + i, edgels);
+    }
+  });
 }
 
 // Bilinear; nothing outside the frame.
@@ -99,13 +131,28 @@ std::optional<double> sample(ImageView<const std::uint16_t> frame, Vector at) {
   return upper + fy * (lower - upper);
 }
 
-// Counts `distance` px ahead along the normal of an edgel less those as far behind it.
-std::optional<double> difference(ImageView<const std::uint16_t> frame, const Edgels& edgels,
-                                 std::size_t i, double distance) {
+// Counts `distance` px ahead along the normal of an edgel less those as far behind it; NaN where
+// one lies outside the frame.
+double difference(ImageView<const std::uint16_t> frame, const Edgels& edgels, std::size_t i,
+                  double distance) {
   const Vector step{distance * edgels.nx[i], distance * edgels.ny[i]};
   const auto ahead = sample(frame, {edgels.x[i] + step.x, edgels.y[i] + step.y});
   const auto behind = sample(frame, {edgels.x[i] - step.x, edgels.y[i] - step.y});
-  return ahead && behind ? std::optional(*ahead - *behind) : std::nullopt;
+  return ahead && behind ? *ahead - *behind : std::numeric_limits<double>::quiet_NaN();
+}
+
+// The same of `count` edgels, at most kMostEdgels.
+void differences(ImageView<const std::uint16_t> frame, const Edgels& edgels, std::size_t first,
+                 std::size_t count, double distance, RunOfDoubles& out) {
+  detail::differences_across(frame,
+                             {&edgels.x[first], &edgels.y[first], &edgels.nx[first],
+                              &edgels.ny[first], static_cast<int>(count)},
+                             distance, out.data());
+  for (std::size_t i = 0; i < count; ++i) {
+    if (std::isnan(out[i])) {  // next to the border, or outside
+      out[i] = difference(frame, edgels, first + i, distance);
+    }
+  }
 }
 
 struct Contrast {
@@ -117,16 +164,24 @@ constexpr double kNearestPx = 1.5;
 
 Contrast contrast_across(ImageView<const std::uint16_t> frame, const Edgels& edgels, Range range,
                          double farthest_px) {
+  constexpr std::size_t kMostSteps = 4;
+  std::array<RunOfDoubles, kMostSteps> steps;
+  const auto per_edgel = static_cast<std::size_t>(farthest_px - kNearestPx) + 1;
+  assert(per_edgel <= kMostSteps);
   double sum = 0;
   int samples = 0;
-  for (std::size_t i = range.first; i < range.first + range.count; ++i) {
-    for (double distance = kNearestPx; distance <= farthest_px; distance += 1) {
-      if (const auto step = difference(frame, edgels, i, distance)) {
-        sum += *step;
-        ++samples;
+  for_each_run(range, [&](std::size_t first, std::size_t count) {
+    for (std::size_t k = 0; k < per_edgel; ++k) {
+      differences(frame, edgels, first, count, kNearestPx + static_cast<double>(k), steps[k]);
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      for (std::size_t k = 0; k < per_edgel; ++k) {
+        const bool seen = !std::isnan(steps[k][i]);
+        sum += seen ? steps[k][i] : 0;
+        samples += seen ? 1 : 0;
       }
     }
-  }
+  });
   return {samples > 0 ? sum / samples : 0, samples};
 }
 
@@ -149,11 +204,15 @@ double position_sigma(double sigma_counts, double slope) {
 
 void measure_edgels(ImageView<const std::uint16_t> frame, double sigma_counts, Range range,
                     Edgels& edgels) {
-  for (std::size_t i = range.first; i < range.first + range.count; ++i) {
-    const double slope = std::abs(difference(frame, edgels, i, 1).value_or(0)) / 2;
-    edgels.magnitude_counts[i] = static_cast<float>(slope);
-    edgels.position_sigma_px[i] = static_cast<float>(position_sigma(sigma_counts, slope));
-  }
+  for_each_run(range, [&](std::size_t first, std::size_t count) {
+    RunOfDoubles steps;
+    differences(frame, edgels, first, count, 1, steps);
+    for (std::size_t i = 0; i < count; ++i) {
+      const double slope = std::isnan(steps[i]) ? 0 : std::abs(steps[i]) / 2;
+      edgels.magnitude_counts[first + i] = static_cast<float>(slope);
+      edgels.position_sigma_px[first + i] = static_cast<float>(position_sigma(sigma_counts, slope));
+    }
+  });
 }
 
 // `more_variance`: of the contrast, in units of the noise, beside that of its samples.
@@ -172,12 +231,15 @@ double contrast_of_slope(ImageView<const std::uint16_t> frame, const Edgels& edg
   constexpr double kFarPx = 16;
   double sum = 0;
   int samples = 0;
-  for (std::size_t i = range.first; i < range.first + range.count; ++i) {
-    if (const auto step = difference(frame, edgels, i, kFarPx)) {
-      sum += *step;
-      ++samples;
+  for_each_run(range, [&](std::size_t first, std::size_t count) {
+    RunOfDoubles steps;
+    differences(frame, edgels, first, count, kFarPx, steps);
+    for (std::size_t i = 0; i < count; ++i) {
+      const bool seen = !std::isnan(steps[i]);
+      sum += seen ? steps[i] : 0;
+      samples += seen ? 1 : 0;
     }
-  }
+  });
   const double mean_px = (kNearestPx + farthest_px) / 2;
   return samples > 0 ? sum / samples * mean_px / kFarPx : 0;
 }
@@ -222,10 +284,6 @@ double number_of_tests(const EdgeSet& edges) {
   return std::max(tests, 1.0);
 }
 
-}  // namespace
-
-namespace {
-
 // What speaks for an edge: its contrast on the frame as it came, and its score, as far as a
 // denoiser can be trusted. On the edges that are found in noise it is a normal variable.
 struct Evidence {
@@ -262,6 +320,16 @@ void measure_all(ImageView<const std::uint16_t> frame, double sigma_counts, doub
   }
 }
 
+// Unit vectors at all multiples of 15 degrees.
+std::array<Vector, 24> directions() {
+  std::array<Vector, 24> along;
+  for (std::size_t i = 0; i < along.size(); ++i) {
+    const double angle = static_cast<double>(i) * std::numbers::pi / 12;
+    along[i] = {std::cos(angle), std::sin(angle)};
+  }
+  return along;
+}
+
 }  // namespace
 
 void measure_edges(ImageView<const std::uint16_t> frame, double sigma_counts, EdgeSet& edges) {
@@ -280,12 +348,12 @@ void measure_edges(ImageView<const std::uint16_t> frame, double sigma_counts,
   constexpr double kFarthestPx = 4.5;
   const double candidates = static_cast<double>(frame.size()) / kPixelsPerCandidate;
   Edgels& edgels = edges.edgels;
+  const auto along = directions();
   const auto orient = [&](const Edge& edge) {
     for (std::size_t i = edge.edgels.first; i < edge.edgels.first + edge.edgels.count; ++i) {
-      const int steps =
-          direction(static_cast<int>(edgels.x[i]), static_cast<int>(edgels.y[i]));  // of 15 degrees
-      const double along = steps * std::numbers::pi / 12;
-      if (std::cos(along) * edgels.ny[i] - std::sin(along) * edgels.nx[i] < 0) {
+      const int steps = direction(static_cast<int>(edgels.x[i]), static_cast<int>(edgels.y[i]));
+      const Vector way = along[static_cast<std::size_t>(steps)];
+      if (way.x * edgels.ny[i] - way.y * edgels.nx[i] < 0) {
         flip_normals(edgels, {static_cast<std::uint32_t>(i), 1});
       }
     }
