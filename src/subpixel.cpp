@@ -13,34 +13,63 @@ struct Facet {
   double x = 0, y = 0, xx = 0, xy = 0, yy = 0;
 };
 
-Facet facet_of_log(ImageView<const float> values, int x, int y) {
-  constexpr double kLeast = 1e-6;
-  double log_value[3][3];
-  for (int j = -1; j <= 1; ++j) {
-    for (int i = -1; i <= 1; ++i) {
-      log_value[j + 1][i + 1] =
-          std::log(std::max(static_cast<double>(values(x + i, y + j)), kLeast));
+// Logarithms of the 3 x 3 values around a pixel. From edgel to edgel of an edge most of them are
+// the same.
+class LogWindow {
+ public:
+  explicit LogWindow(ImageView<const float> values) : values_(values) {}
+
+  // The pixel is none of the border.
+  void move_to(int x, int y) {
+    const int dx = x - x_;
+    const int dy = y - y_;
+    x_ = x;
+    y_ = y;
+    const bool overlaps = std::abs(dx) <= 2 && std::abs(dy) <= 2;
+    const Logs before = logs_;
+    for (int j = 0; j < 3; ++j) {
+      for (int i = 0; i < 3; ++i) {
+        const bool known = overlaps && i + dx >= 0 && i + dx < 3 && j + dy >= 0 && j + dy < 3;
+        logs_[j][i] = known ? before[j + dy][i + dx] : log_at(x + i - 1, y + j - 1);
+      }
     }
   }
-  const auto column = [&](int i) { return log_value[0][i] + log_value[1][i] + log_value[2][i]; };
-  const auto row = [&](int j) { return log_value[j][0] + log_value[j][1] + log_value[j][2]; };
-  return {(column(2) - column(0)) / 6, (row(2) - row(0)) / 6,
-          (column(2) - 2 * column(1) + column(0)) / 3,
-          (log_value[2][2] - log_value[2][0] - log_value[0][2] + log_value[0][0]) / 4,
-          (row(2) - 2 * row(1) + row(0)) / 3};
-}
+
+  [[nodiscard]] Facet facet() const {
+    const auto column = [&](int i) { return logs_[0][i] + logs_[1][i] + logs_[2][i]; };
+    const auto row = [&](int j) { return logs_[j][0] + logs_[j][1] + logs_[j][2]; };
+    return {(column(2) - column(0)) / 6, (row(2) - row(0)) / 6,
+            (column(2) - 2 * column(1) + column(0)) / 3,
+            (logs_[2][2] - logs_[2][0] - logs_[0][2] + logs_[0][0]) / 4,
+            (row(2) - 2 * row(1) + row(0)) / 3};
+  }
+
+ private:
+  using Logs = std::array<std::array<double, 3>, 3>;
+
+  [[nodiscard]] double log_at(int x, int y) const {
+    constexpr double kLeast = 1e-6;
+    return std::log(std::max(static_cast<double>(values_(x, y)), kLeast));
+  }
+
+  ImageView<const float> values_;
+  int x_ = -8;  // nowhere near
+  int y_ = -8;
+  Logs logs_{};
+};
 
 constexpr double kHalfPixel = 0.499;
 
 // To the ridge, within the pixel.
-void move_to_ridge(ImageView<const float> strength, double sigma_times_strength, Edgels& edgels,
-                   std::size_t i) {
-  const int x = static_cast<int>(std::floor(edgels.x[i] + 0.5F));
-  const int y = static_cast<int>(std::floor(edgels.y[i] + 0.5F));
+void move_to_ridge(ImageView<const float> strength, double sigma_times_strength, LogWindow& window,
+                   Edgels& edgels, std::size_t i) {
+  const int x = static_cast<int>(edgels.x[i] + 0.5F);  // not negative
+  const int y = static_cast<int>(edgels.y[i] + 0.5F);
   if (x < 1 || y < 1 || x >= strength.width() - 1 || y >= strength.height() - 1) {
     return;
   }
-  const Facet facet = facet_of_log(strength, x, y);
+  window.move_to(x, y);
+  const Facet facet = window.facet();
   const double nx = edgels.nx[i];
   const double ny = edgels.ny[i];
   const double slope = facet.x * nx + facet.y * ny;
@@ -137,8 +166,9 @@ void refine_positions(ImageView<const float> strength, KernelSize kernel, double
   constexpr double kArea = 1.2 * 2.5;
   const double sigma_times_strength =
       kSigmaTimesStrength * noise * std::sqrt(kernel.across_px * kernel.along_px / kArea);
+  LogWindow window(strength);
   for (std::size_t i = 0; i < edges.edgels.size(); ++i) {
-    move_to_ridge(strength, sigma_times_strength, edges.edgels, i);
+    move_to_ridge(strength, sigma_times_strength, window, edges.edgels, i);
   }
   for (const Edge& edge : edges.edges) {
     make_up_for_curvature(kernel.along_px, edge, edges.edgels);
