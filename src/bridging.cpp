@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 #include <cstdlib>
+#include <iterator>
 #include <numbers>
 #include <tuple>
 
@@ -82,13 +83,18 @@ void Bridger::prepare(const LinkedContours& curves, ImageView<const float> frame
       [=](Pixel offset) {
         return static_cast<double>(squared_distance(offset, {})) <= gap_px * gap_px;
       },
-      offsets_);
+      window_);
   const std::size_t most_contours = curves.contours.contours.capacity();
   chains_.reserve(most_contours);
   chains_.reset(curves.contours);
   bridges_.reserve(2 * most_contours);
   owner_.resize(frame.width(), frame.height());
   place_.resize(frame.width(), frame.height());
+  offsets_.clear();
+  std::transform(window_.begin(), window_.end(), std::back_inserter(offsets_), [&](Pixel step) {
+    return Offset{step, step.y * owner_.stride() + step.x,
+                  std::sqrt(static_cast<double>(squared_distance(step, {})))};
+  });
   bridged.links.reserve(curves.links.capacity() + 2 * most_contours);
   bridged.contours.contours.reserve(most_contours);
   bridged.contours.junctions.reserve(curves.contours.junctions.capacity() + 2 * most_contours);
@@ -152,15 +158,27 @@ Bridger::Tip Bridger::tip_of(const ContourSet& contours, std::int32_t end,
 // The curve straight ahead, or the border.
 std::optional<Bridger::Bridge> Bridger::find_target(const Tip& tip, std::int32_t end,
                                                     double least_cosine) const {
+  constexpr double kRounding = 1e-9;  // more than that of a cost or a cosine
   const std::int32_t own_place = place_(tip.at.x, tip.at.y);
+  const std::int32_t* owner = &owner_(tip.at.x, tip.at.y);
+  const auto reach = static_cast<std::int32_t>(options_.gap_px);
+  const bool inside = tip.at.x >= reach && tip.at.y >= reach && tip.at.x < owner_.width() - reach &&
+                      tip.at.y < owner_.height() - reach;
   Bridge best{kNoWay, end, {}, kNone, std::nullopt};
-  for (const Pixel offset : offsets_) {
-    const Pixel to{tip.at.x + offset.x, tip.at.y + offset.y};
-    if (!owner_.view().contains(to.x, to.y) || owner_(to.x, to.y) == kNone) {
+  for (const auto& [step, place, length] : offsets_) {
+    if (length > best.cost * (1 + kRounding)) {
+      break;  // no bridge costs less than its length
+    }
+    const Pixel to{tip.at.x + step.x, tip.at.y + step.y};
+    if ((!inside && !owner_.view().contains(to.x, to.y)) || owner[place] == kNone) {
       continue;
     }
-    const double length = std::sqrt(static_cast<double>(squared_distance(offset, {})));
-    const double cosine = (offset.x * tip.ahead.x + offset.y * tip.ahead.y) / std::max(length, 1.0);
+    const double ahead = step.x * tip.ahead.x + step.y * tip.ahead.y;
+    const double unit = std::max(length, 1.0);
+    if (ahead < (least_cosine - kRounding) * unit) {
+      continue;  // before the division, as most are
+    }
+    const double cosine = ahead / unit;
     const bool own_tip =
         is_own(end, to) && std::abs(place_(to.x, to.y) - own_place) <= kOwnGaps * options_.gap_px;
     const double cost = length * (1 + kTurnCost * (1 - cosine));

@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdlib>
+#include <cstring>
 #include <numbers>
 #include <tuple>
 
@@ -21,6 +22,18 @@ constexpr std::array<Pixel, 8> kAround = {Pixel{1, 0}, {1, 1},   {0, 1},  {-1, 1
                                           {-1, 0},     {-1, -1}, {0, -1}, {1, -1}};
 
 std::ptrdiff_t offset_of(Pixel step, std::ptrdiff_t stride) { return step.y * stride + step.x; }
+
+// The first place from `x` on at which a row is not 0, or `width`. Eight at a time: most are.
+int next_set(const std::uint8_t* row, int x, int width) {
+  std::uint64_t eight = 0;
+  while (x + 8 <= width && (std::memcpy(&eight, row + x, sizeof(eight)), eight == 0)) {
+    x += 8;
+  }
+  while (x < width && row[x] == 0) {
+    ++x;
+  }
+  return x;
+}
 
 // The neighbours of a pixel that are set, as bits in the order of kAround.
 unsigned set_around(const std::uint8_t* pixel, std::ptrdiff_t stride) {
@@ -109,6 +122,7 @@ void GraphTracer::prepare(ImageView<const std::uint8_t> edges, LinkedContours& c
   fill_pixels(map_.view(), std::uint8_t{0});
   const std::size_t most = edges.size();
   order_.reserve(most);
+  candidates_.reserve(most);
   pixels_.reserve(most);
   junction_pixels_.reserve(most);
   junctions_.reserve(most / 4 + 1);
@@ -127,11 +141,11 @@ void GraphTracer::prepare(ImageView<const std::uint8_t> edges, LinkedContours& c
   curves.links.reserve(2 * most_curves);
   order_.clear();
   for (int y = 0; y < edges.height(); ++y) {
-    for (int x = 0; x < edges.width(); ++x) {
-      if (edges(x, y) != 0) {
-        map_(x + 1, y + 1) = 1;
-        order_.push_back(static_cast<std::int32_t>((y + 1) * map_.stride() + x + 1));
-      }
+    const std::uint8_t* const row = edges.row(y);
+    for (int x = next_set(row, 0, edges.width()); x < edges.width();
+         x = next_set(row, x + 1, edges.width())) {
+      map_(x + 1, y + 1) = 1;
+      order_.push_back(static_cast<std::int32_t>((y + 1) * map_.stride() + x + 1));
     }
   }
 }
@@ -141,32 +155,49 @@ Pixel GraphTracer::position(std::int32_t pixel) const {
   return {pixel % stride - 1, pixel / stride - 1};
 }
 
+// Round by round, the weakest first. Only what lies beside a pixel that went can have become
+// superfluous since it was looked at.
 void GraphTracer::thin(ImageView<const float> strength) {
+  const std::uint8_t* const map = map_.row(0);
+  std::vector<std::int32_t>& affected = pixels_;
+  affected.assign(order_.begin(), order_.end());
+  for (const std::int32_t pixel : order_) {
+    label_[static_cast<std::size_t>(pixel)] = kNone;  // otherwise, it is in `affected`
+  }
+  while (!affected.empty()) {
+    candidates_.clear();
+    for (const std::int32_t pixel : affected) {
+      label_[static_cast<std::size_t>(pixel)] = kNone;
+      if (map[pixel] != 0 && kSuperfluous[set_around(map + pixel, map_.stride())]) {
+        const Pixel at = position(pixel);
+        candidates_.push_back({strength(at.x, at.y), pixel});
+      }
+    }
+    std::sort(candidates_.begin(), candidates_.end());
+    affected.clear();
+    take_off_candidates();
+  }
+  std::erase_if(order_, [&](std::int32_t pixel) { return map[pixel] == 0; });
+}
+
+// Those that are still superfluous when it is their turn; pixels_ are their neighbours.
+void GraphTracer::take_off_candidates() {
   std::uint8_t* const map = map_.row(0);
-  const auto superfluous = [&](std::int32_t pixel) {
-    return kSuperfluous[set_around(map + pixel, map_.stride())];
-  };
-  const auto strength_at = [&](std::int32_t pixel) {
-    const Pixel at = position(pixel);
-    return strength(at.x, at.y);
-  };
-  std::vector<std::int32_t>& candidates = pixels_;
-  for (bool changed = true; changed;) {
-    candidates.clear();
-    std::copy_if(order_.begin(), order_.end(), std::back_inserter(candidates),
-                 [&](std::int32_t pixel) { return map[pixel] != 0 && superfluous(pixel); });
-    std::sort(candidates.begin(), candidates.end(), [&](std::int32_t a, std::int32_t b) {
-      return std::tuple(strength_at(a), a) < std::tuple(strength_at(b), b);
-    });
-    changed = false;
-    for (const std::int32_t pixel : candidates) {
-      if (superfluous(pixel)) {
-        map[pixel] = 0;
-        changed = true;
+  for (const Candidate& candidate : candidates_) {
+    const unsigned around = set_around(map + candidate.pixel, map_.stride());
+    if (!kSuperfluous[around]) {
+      continue;
+    }
+    map[candidate.pixel] = 0;
+    for (unsigned bits = around; bits != 0; bits &= bits - 1) {
+      const std::int32_t beside = neighbour(candidate.pixel, bits);
+      std::int32_t& label = label_[static_cast<std::size_t>(beside)];
+      if (label == kNone) {
+        label = kVisited;
+        pixels_.push_back(beside);
       }
     }
   }
-  std::erase_if(order_, [&](std::int32_t pixel) { return map[pixel] == 0; });
 }
 
 void GraphTracer::find_neighbours() {

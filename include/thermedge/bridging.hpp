@@ -55,6 +55,13 @@ class Bridger {
     std::optional<Pixel> corner;  // by way of which it does
   };
 
+  // From an end to where it may be bridged to.
+  struct Offset {
+    Pixel step;
+    std::ptrdiff_t place;  // in owner_, from the end
+    double length;
+  };
+
   void prepare(const LinkedContours& curves, ImageView<const float> frame, LinkedContours& bridged);
   void paint(const LinkedContours& curves, std::span<const std::uint8_t> worthy);
   [[nodiscard]] bool touches_another(std::int32_t end, Pixel at) const;
@@ -75,7 +82,8 @@ class Bridger {
 
   BridgingOptions options_;
   detail::CurveChains chains_;
-  std::vector<Pixel> offsets_;  // within gap_px, nearest first
+  std::vector<Pixel> window_;    // offsets within gap_px, nearest first
+  std::vector<Offset> offsets_;  // the same
   std::vector<Bridge> bridges_;
   Image<std::int32_t> owner_;  // curve of each pixel, -1: none
   Image<std::int32_t> place_;  // of the pixel within its curve

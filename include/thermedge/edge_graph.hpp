@@ -1,6 +1,7 @@
 // From edge pixels to curves by way of a graph of segments and junctions.
 #pragma once
 
+#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -51,7 +52,15 @@ class GraphTracer {
   };
 
   void prepare(ImageView<const std::uint8_t> edges, LinkedContours& curves);
+  // A pixel that may be taken off.
+  struct Candidate {
+    float strength;
+    std::int32_t pixel;
+    auto operator<=>(const Candidate&) const = default;
+  };
+
   void thin(ImageView<const float> strength);
+  void take_off_candidates();
   void find_neighbours();
   void find_junctions();
   void find_segments();
@@ -79,6 +88,7 @@ class GraphTracer {
   std::vector<std::int32_t> label_;   // junction of a pixel, or what has become of it
   std::vector<std::int32_t> order_;   // edge pixels, as offsets in the map
   std::vector<std::int32_t> pixels_;  // of segments
+  std::vector<Candidate> candidates_;
   std::vector<std::int32_t> junction_pixels_;
   std::vector<Range> junctions_;  // in junction_pixels_
   std::vector<Range> segments_;   // in pixels_
