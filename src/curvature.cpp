@@ -1,10 +1,11 @@
 #include "curvature.hpp"
 
-#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <numbers>
 #include <numeric>
+
+#include "simd/edgels.hpp"
 
 namespace thermedge::detail {
 namespace {
@@ -43,20 +44,13 @@ void gaussian_kernel(double sigma, std::vector<double>& kernel) {
   }
 }
 
-// One tap after the other over all samples: the inner loop has independent sums, which a compiler
-// can turn into vectors. Each sum adds its terms from the last tap to the first, as GNU Octave's
-// conv does; on straight lines the rounding error decides between a curvature of 0 and of 0.01.
+// Each sum adds its terms from the last tap to the first, as GNU Octave's conv does; on straight
+// lines the rounding error decides between a curvature of 0 and of 0.01.
 void smooth(std::span<const double> padded, std::span<const double> kernel,
             std::span<double> smoothed) {
   assert(padded.size() == smoothed.size() + kernel.size() - 1);
-  std::fill(smoothed.begin(), smoothed.end(), 0.0);
-  for (std::size_t tap = kernel.size(); tap-- > 0;) {
-    const double weight = kernel[tap];
-    const double* from = padded.data() + tap;
-    for (std::size_t i = 0; i < smoothed.size(); ++i) {
-      smoothed[i] += weight * from[i];
-    }
-  }
+  backward_sums(padded.data(), kernel.data(), static_cast<int>(kernel.size()),
+                static_cast<int>(smoothed.size()), smoothed.data());
 }
 
 void rounded_curvature(std::span<const double> x, std::span<const double> y,

@@ -373,10 +373,6 @@ void OrientedEdges::Impl::project(int band, int y_begin, int y_end, double sigma
   const int margin = line_margin;
   const int first_row = band * (kBandRows + 2 * margin);  // of this band in `projected`
   const auto per_sigma = static_cast<float>(1 / sigma_counts);
-  for (int y = y_begin; y < y_end; ++y) {
-    std::fill_n(strength.row(y), strength.width(), 0.0F);
-    std::fill_n(direction.row(y), direction.width(), 0);
-  }
   for (int i = 0; i < kDirections; ++i) {
     const Line& line = kernels->lines[static_cast<std::size_t>(i)];
     const int reach = *std::max_element(line.dy.begin(), line.dy.begin() + margin + 1);

@@ -129,6 +129,16 @@ void tangents(const float* coordinate, int count, double* out) {
   });
 }
 
+void backward_sums(const double* values, const double* weights, int taps, int count, double* out) {
+  for_each_vector(count, [&](auto d, int i) {
+    auto sum = hn::Zero(d);
+    for (int k = taps - 1; k >= 0; --k) {
+      sum = sum + hn::Set(d, weights[k]) * hn::LoadU(d, values + i + k);
+    }
+    hn::StoreU(sum, d, out + i);
+  });
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace thermedge::detail
 HWY_AFTER_NAMESPACE();
@@ -138,6 +148,7 @@ namespace thermedge::detail {
 
 HWY_EXPORT(differences_across);
 HWY_EXPORT(tangents);
+HWY_EXPORT(backward_sums);
 
 void differences_across(ImageView<const std::uint16_t> frame, const EdgelRun& edgels,
                         double distance_px, double* out) {
@@ -146,6 +157,10 @@ void differences_across(ImageView<const std::uint16_t> frame, const EdgelRun& ed
 
 void tangents(const float* coordinate, int count, double* out) {
   HWY_DYNAMIC_DISPATCH(tangents)(coordinate, count, out);
+}
+
+void backward_sums(const double* values, const double* weights, int taps, int count, double* out) {
+  HWY_DYNAMIC_DISPATCH(backward_sums)(values, weights, taps, count, out);
 }
 
 }  // namespace thermedge::detail

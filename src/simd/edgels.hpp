@@ -36,4 +36,8 @@ void tangents(const float* coordinate, int count, double* out);
 inline constexpr double kTangentWeights[kTangentReach] = {4862, 7072, 6188, 3808, 1700,
                                                           544,  119,  16,   1};
 
+// out[i] = sum of weights[k] values[i + k] over the `taps` weights, added from the last to the
+// first. Reads count + taps - 1 values, writes exactly `count`.
+void backward_sums(const double* values, const double* weights, int taps, int count, double* out);
+
 }  // namespace thermedge::detail

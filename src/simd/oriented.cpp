@@ -62,10 +62,15 @@ void keep_stronger_row(const float* centre, const std::ptrdiff_t* offsets, const
       sum = sum + hn::Set(d, weights[k]) * both;
     }
     const auto size = hn::Abs(sum);
+    const auto signed_self = hn::IfThenElse(hn::RebindMask(di, sum < hn::Zero(d)), reversed, self);
+    if (index == 0) {
+      hn::StoreU(size, d, strength + x);
+      hn::StoreU(signed_self, di, direction + x);
+      continue;
+    }
     const auto before = hn::LoadU(d, strength + x);
     const auto is_stronger = hn::RebindMask(di, size > before);
     hn::StoreU(hn::Max(size, before), d, strength + x);
-    const auto signed_self = hn::IfThenElse(hn::RebindMask(di, sum < hn::Zero(d)), reversed, self);
     hn::StoreU(hn::IfThenElse(is_stronger, signed_self, hn::LoadU(di, direction + x)), di,
                direction + x);
   }

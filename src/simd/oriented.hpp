@@ -21,7 +21,8 @@ void project_row(const float* gx, const float* gy, float a, float b, int width, 
 
 // Sums along a line of pixels: weights[0] centre[x] + sum over k of weights[k] (centre[x +
 // offsets[k]] + centre[x - offsets[k]]). Where its size is above strength[x], that becomes the size
-// and direction[x] becomes `index`, or index + reverse where the sum is negative.
+// and direction[x] becomes `index`, or index + reverse where the sum is negative. With index 0,
+// which comes first, it is so everywhere, whatever strength and direction held.
 void keep_stronger_row(const float* centre, const std::ptrdiff_t* offsets, const float* weights,
                        int radius, int index, int reverse, int width, float* strength,
                        std::int32_t* direction);
