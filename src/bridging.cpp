@@ -25,6 +25,7 @@ constexpr double kTurnCost = 2;  // of a bridge that turns by 90 degrees, in its
 constexpr int kTipReach = 4;     // a curve met this near to its end is met at its end
 constexpr double kOwnGaps = 4;   // so many gaps along its own curve an end may be bridged to it
 constexpr double kNoWay = 1e9;
+constexpr double kStepPx = 0.5;  // between samples along a bridge
 
 double bilinear(ImageView<const float> frame, double x, double y) {
   x = std::clamp(x, 0.0, static_cast<double>(frame.width() - 1));
@@ -266,11 +267,11 @@ bool Bridger::step_goes_on(const Tip& tip, Pixel to, ImageView<const float> fram
     return true;
   }
   const Vector way = direction(tip.at, to);
-  const int samples = std::max(static_cast<int>(2 * (length - 1)), 1);  // every half pixel
   double step = 0;
+  const int samples = std::max(static_cast<int>((length - 1) / kStepPx), 1);
   for (int i = 1; i <= samples; ++i) {
-    step +=
-        step_across(frame, tip.at.x + 0.5 * i * way.x, tip.at.y + 0.5 * i * way.y, way.x, way.y);
+    const double along = kStepPx * i;
+    step += step_across(frame, tip.at.x + along * way.x, tip.at.y + along * way.y, way.x, way.y);
   }
   const double same_side = tip.contrast < 0 ? -step : step;
   return same_side > 0 && same_side >= options_.least_contrast * std::abs(tip.contrast) * samples;

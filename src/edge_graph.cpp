@@ -173,7 +173,9 @@ void GraphTracer::thin(ImageView<const float> strength) {
         candidates_.push_back({strength(at.x, at.y), pixel});
       }
     }
-    std::sort(candidates_.begin(), candidates_.end());
+    std::sort(candidates_.begin(), candidates_.end(), [](const Candidate& a, const Candidate& b) {
+      return std::tie(a.strength, a.pixel) < std::tie(b.strength, b.pixel);
+    });
     affected.clear();
     take_off_candidates();
   }

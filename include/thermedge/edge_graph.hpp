@@ -1,7 +1,6 @@
 // From edge pixels to curves by way of a graph of segments and junctions.
 #pragma once
 
-#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -56,7 +55,6 @@ class GraphTracer {
   struct Candidate {
     float strength;
     std::int32_t pixel;
-    auto operator<=>(const Candidate&) const = default;
   };
 
   void thin(ImageView<const float> strength);
