@@ -1,0 +1,60 @@
+// Who is compared: everybody takes counts and gives a map of edges.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "thermedge/image.hpp"
+#include "thermedge/options.hpp"
+
+namespace thermedge::bench {
+
+// What stands in front of a detector: counts -> 8-bit levels (Algorithm 1 and a filter).
+struct Front {
+  std::string name;
+  std::function<void(ImageView<const std::uint16_t> counts, ImageView<std::uint8_t> levels)> run;
+};
+
+// Levels -> edges (nonzero), maps of one size.
+struct Finder {
+  std::string name;
+  std::function<void(ImageView<const std::uint8_t> levels, ImageView<std::uint8_t> map)> run;
+};
+
+// Counts -> edges, whole.
+using WholeDetector =
+    std::function<void(ImageView<const std::uint16_t> counts, ImageView<std::uint8_t> map)>;
+
+// Ours as they come (`whole`), or every pair of a front and a finder as settings to choose from.
+struct Contender {
+  std::string name;
+  std::string family;  // thermedge, OpenCV or classical
+  WholeDetector whole;
+  std::vector<Front> fronts;
+  std::vector<Finder> finders;
+
+  [[nodiscard]] std::size_t settings() const { return whole ? 1 : fronts.size() * finders.size(); }
+  [[nodiscard]] std::string setting_name(std::size_t setting) const;
+  void run(std::size_t setting, ImageView<const std::uint16_t> counts,
+           ImageView<std::uint8_t> map) const;
+};
+
+// The mask of a detector on one thread.
+[[nodiscard]] WholeDetector ours(const DetectorOptions& options);
+
+// The presets, and each peer with the settings that it is tuned over.
+[[nodiscard]] std::vector<Contender> all_contenders();
+
+// No filter, Gaussian, NL-means and BM3D of this library; median and bilateral of OpenCV.
+[[nodiscard]] std::vector<Front> denoising_fronts();
+// Detectors on levels with the thresholds that they are tuned over, one contender each, without
+// fronts.
+[[nodiscard]] std::vector<Contender> detectors_on_levels();
+
+// OpenCV's Canny behind a Gaussian and EDPF behind one, from the least to the most cautious
+// setting; empty without OpenCV.
+[[nodiscard]] std::vector<Contender> peers_for_detection();
+
+}  // namespace thermedge::bench

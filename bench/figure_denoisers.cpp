@@ -1,0 +1,72 @@
+// What each denoiser does for each detector.
+#include <fmt/core.h>
+
+#include "csv.hpp"
+#include "figures.hpp"
+#include "measuring.hpp"
+#include "must.hpp"
+#include "thermedge/detector.hpp"
+#include "thermedge/fields.hpp"
+
+namespace thermedge::bench {
+namespace {
+
+struct Frames {
+  int noise;  // counts
+  std::vector<TestFrame> tuning, test;
+};
+
+void add_row(const Frames& frames, const std::string& denoiser, const Contender& contender,
+             Csv& csv) {
+  const std::size_t setting = best_setting(contender, frames.tuning);
+  const Performance p = measure(contender, setting, frames.test);
+  csv.add(fmt::format("{},{},{},{},{},{:.4f},{:.4f},{:.4f},{:.3f}", frames.noise, denoiser,
+                      contender.name, contender.setting_name(setting), frames.test.size(),
+                      p.counts.f_measure(), p.counts.precision(), p.counts.recall(), p.ms));
+}
+
+// Everything of preset `paper` behind the denoiser.
+Finder paper_behind() {
+  DetectorOptions options = preset_options(Preset::kPaper);
+  options.denoise.method = DenoiseMethod::kNone;
+  options.threads = 1;
+  const auto detector = std::make_shared<Detector>(must(Detector::create(options)));
+  return {"defaults",
+          [detector](ImageView<const std::uint8_t> levels, ImageView<std::uint8_t> map) {
+            Image<std::uint16_t> counts(levels.width(), levels.height());
+            copy_pixels(levels, counts.view());
+            draw_mask(must(detector->detect(counts, 8))->edges, map);
+          }};
+}
+
+}  // namespace
+
+void measure_denoisers(const BenchOptions& options) {
+  const std::vector<CleanScene> tuning = random_scenes(1000, (options.scenes + 1) / 2);
+  const std::vector<CleanScene> test = random_scenes(2000, options.scenes);
+  Csv csv(options.out + "/denoisers_and_detectors.csv",
+          "noise_counts,denoiser,detector,setting,frames,f,precision,recall,ms");
+  for (const int noise : {8, 20}) {
+    const Frames frames{noise, exposed(tuning, noise, 1000), exposed(test, noise, 2000)};
+    for (const Front& front : denoising_fronts()) {
+      for (Contender& detector : detectors_on_levels()) {
+        detector.fronts = {front};
+        add_row(frames, front.name, detector, csv);
+      }
+      add_row(frames, front.name, {"thermedge paper", "thermedge", {}, {front}, {paper_behind()}},
+              csv);
+    }
+    // On counts instead of levels, so that only the methods of the library can stand in front.
+    for (const auto& [name, method] : {std::pair{"none", DenoiseMethod::kNone},
+                                       {"Gaussian", DenoiseMethod::kGaussian},
+                                       {"NL-means", DenoiseMethod::kNlm},
+                                       {"BM3D", DenoiseMethod::kBm3d}}) {
+      DetectorOptions robust = preset_options(Preset::kRobust);
+      robust.denoise.method = method;
+      add_row(frames, name, {"thermedge robust", "thermedge", ours(robust), {}, {}}, csv);
+    }
+  }
+  csv.write();
+}
+
+}  // namespace thermedge::bench

@@ -1,0 +1,31 @@
+// How good contenders are on frames, and which setting of a peer is best.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "contenders.hpp"
+#include "test_frames.hpp"
+#include "thermedge/eval/counts.hpp"
+
+namespace thermedge::bench {
+
+struct Performance {
+  eval::MatchCounts counts;  // summed over the frames
+  double ms = 0;             // median time of a frame on one thread
+};
+[[nodiscard]] Performance measure(const Contender& contender, std::size_t setting,
+                                  const std::vector<TestFrame>& frames);
+
+// The setting with the best F over these frames (ties: the first).
+[[nodiscard]] std::size_t best_setting(const Contender& contender,
+                                       const std::vector<TestFrame>& frames);
+
+// Random scenes `first_seed`, first_seed + 1 ... with their noise.
+[[nodiscard]] std::vector<CleanScene> random_scenes(std::uint64_t first_seed, int count);
+[[nodiscard]] std::vector<TestFrame> exposed(const std::vector<CleanScene>& scenes,
+                                             double sigma_counts, std::uint64_t seed);
+
+[[nodiscard]] double median(std::vector<double> values);
+
+}  // namespace thermedge::bench

@@ -1,0 +1,19 @@
+// Prewitt, Roberts, Sobel, LoG and Canny of this library, as MATLAB has them.
+#pragma once
+
+#include "../must.hpp"
+#include "thermedge/classical.hpp"
+
+namespace thermedge::bench {
+
+// `threshold` as ClassicalOptions has it; 0: automatic.
+inline void classical(ImageView<const std::uint8_t> levels, ClassicalMethod method,
+                      double threshold, ImageView<std::uint8_t> map) {
+  ClassicalOptions options;
+  options.threshold = threshold;
+  Image<float> values(levels.width(), levels.height());
+  copy_pixels(levels, values.view());
+  must(ClassicalDetector(options).run(values, method, map, *make_runner(1)));
+}
+
+}  // namespace thermedge::bench
