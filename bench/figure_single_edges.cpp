@@ -36,6 +36,7 @@ Image<std::uint16_t> corrected(ImageView<const std::uint16_t> counts) {
 struct Entrant {
   std::string name;
   std::string setting;
+  bool wants_corrected;
   WholeDetector run;
 };
 
@@ -57,11 +58,10 @@ void add_quiet_settings(const Contender& peer, const std::vector<Image<std::uint
     for (std::size_t finder = 0; finder < peer.finders.size(); ++finder) {
       const std::size_t setting = front * peer.finders.size() + finder;
       if (false_contours(peer, setting, frames) <= kFalseContours) {
-        const Contender copy = peer;
         entrants.push_back(
-            {peer.name, peer.setting_name(setting),
-             [copy, setting](ImageView<const std::uint16_t> counts, ImageView<std::uint8_t> map) {
-               copy.run(setting, corrected(counts), map);
+            {peer.name, peer.setting_name(setting), true,
+             [peer, setting](ImageView<const std::uint16_t> counts, ImageView<std::uint8_t> map) {
+               peer.run(setting, counts, map);
              }});
         break;
       }
@@ -72,7 +72,7 @@ void add_quiet_settings(const Contender& peer, const std::vector<Image<std::uint
 std::vector<Entrant> entrants() {
   std::vector<Entrant> all;
   for (const Preset preset : {Preset::kRobust, Preset::kFast}) {
-    all.push_back({"thermedge " + std::string(preset_name(preset)), "defaults",
+    all.push_back({"thermedge " + std::string(preset_name(preset)), "defaults", false,
                    ours(preset_options(preset))});
   }
   std::vector<Image<std::uint16_t>> frames;
@@ -111,9 +111,10 @@ void measure_single_edges(const BenchOptions& options) {
         const auto seed = static_cast<std::uint64_t>(1000 * length + trial);
         const SingleEdge edge = single_edge(length, trial % 2 == 1, contrast * kSigmaCounts, seed);
         const Image<std::uint16_t> counts = expose(edge.clean, {kSigmaCounts}, seed);
+        const Image<std::uint16_t> corrected_counts = corrected(counts);
         for (std::size_t i = 0; i < all.size(); ++i) {
           Image<std::uint8_t> map(counts.width(), counts.height());
-          all[i].run(counts, map);
+          all[i].run(all[i].wants_corrected ? corrected_counts : counts, map);
           found[i] += is_found(map, edge.points) ? 1 : 0;
         }
       }

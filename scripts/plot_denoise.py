@@ -3,7 +3,6 @@
 
 usage: plot_denoise.py docs/benchmarks/denoise.csv
 """
-import csv
 import pathlib
 import re
 import sys
@@ -13,17 +12,13 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 
+from benchmark_page import COLOURS, read, replace_between
+
 SIZE = ("382", "288")
-# Of Okabe and Ito; they stay apart for colour-blind eyes. Shapes tell the methods apart in grey.
-COLOURS = {"thermedge": "#0072B2", "OpenCV": "#D55E00"}
+# Shapes tell the methods apart in grey.
 SHAPES = {"BM3D": "o", "NL-means": "s", "Gaussian": "^"}
 # Reference implementation of IPOL on the photographs, mean over sigma 10, 25, 50.
 BM3D_REFERENCE_DB = (33.190 + 28.541 + 25.720) / 3
-
-
-def read(path):
-    with open(path, newline="", encoding="utf-8") as file:
-        return list(csv.DictReader(file))
 
 
 def psnr(row, pictures):
@@ -103,14 +98,6 @@ def table(rows):
         ]
         lines.append(f"| {' '.join(key[:3])} | {key[3]} | " + " | ".join(cells) + " |")
     return "\n".join(lines)
-
-
-def replace_between(path, marker, text):
-    begin, end = f"<!-- {marker} -->", f"<!-- end of {marker} -->"
-    page = path.read_text(encoding="utf-8")
-    head, rest = page.split(begin)
-    tail = rest.split(end)[1]
-    path.write_text(f"{head}{begin}\n{text}\n{end}{tail}", encoding="utf-8")
 
 
 def main():
