@@ -4,6 +4,8 @@ SHELL := /bin/bash
 
 # Pictures for `make bench`, see docs/benchmarks.md; optional.
 PHOTOGRAPHS ?= ../shared/data/denoise
+# Random scenes for `make bench`; more of them give steadier figures and take longer.
+BENCH_SCENES ?= 8
 
 .PHONY: help build demo test check bench clean
 
@@ -12,7 +14,7 @@ help:
 	@echo "make demo    edges of simulated frames, pictures under demo/"
 	@echo "make test    all tests"
 	@echo "make check   format, static analysis, tests under sanitizers"
-	@echo "make bench   speed and quality on this machine, beside OpenCV where it is installed"
+	@echo "make bench   speed and quality on this machine, beside OpenCV where it is installed (BENCH_SCENES=24: longer)"
 	@echo "make clean   remove what was built"
 
 build:
@@ -38,9 +40,11 @@ check: build
 bench: build
 	@scripts/install_packages.sh bench
 	@cmake --preset release -DTHERMEDGE_BUILD_BENCH=ON >/dev/null
-	@cmake --build --preset release --target stages_bench denoise_bench
+	@cmake --build --preset release --target stages_bench denoise_bench edges_bench
 	@build/release/bench/stages_bench
+	@build/release/bench/edges_bench docs/benchmarks --scenes "$(BENCH_SCENES)"
 	@build/release/bench/denoise_bench docs/benchmarks/denoise.csv "$(PHOTOGRAPHS)"
+	@/usr/bin/python3 scripts/plot_edges.py docs/benchmarks
 	@/usr/bin/python3 scripts/plot_denoise.py docs/benchmarks/denoise.csv
 	@echo "Tables and plots: docs/benchmarks.md"
 

@@ -71,15 +71,21 @@ Finder classical_finder(ClassicalMethod method, double threshold) {
 }
 
 std::vector<Finder> classical_finders(ClassicalMethod method) {
+  // Canny's is of a gradient that is 8 times as large.
+  const double unit = method == ClassicalMethod::kLog     ? 1.0 / 16
+                      : method == ClassicalMethod::kCanny ? 8
+                                                          : 1;
   std::vector<Finder> finders;
-  const bool canny = method == ClassicalMethod::kCanny;
-  const double unit = method == ClassicalMethod::kLog ? 1.0 / 16 : 1;
   for (const double threshold : {0.0, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0}) {
-    if (threshold == 0 || !canny) {
-      finders.push_back(classical_finder(method, threshold * unit));
-    }
+    finders.push_back(classical_finder(method, threshold * unit));
   }
   return finders;
+}
+
+// There are two detectors of this name.
+std::string display_name(const ClassicalName& method) {
+  return std::string(method.display) +
+         (method.method == ClassicalMethod::kCanny ? " of MATLAB" : "");
 }
 
 #ifdef THERMEDGE_BENCH_OPENCV
@@ -185,7 +191,7 @@ std::vector<Contender> all_contenders() {
   }
 #endif
   for (const ClassicalName& method : kClassicalMethods) {
-    Contender contender{std::string(method.display), "classical", {}, {}, {}};
+    Contender contender{display_name(method), "classical", {}, {}, {}};
     contender.fronts = {front_without_filter(),
                         our_denoiser("Gaussian 5x5", DenoiseMethod::kGaussian)};
     contender.finders = classical_finders(method.method);

@@ -23,28 +23,49 @@ struct Runs {
   std::vector<double> total_ms;
 };
 
-std::vector<Runs> all_runs() {
+// Everybody on frames of one size.
+struct Size {
+  Image<std::uint16_t> counts;
   std::vector<Runs> all;
+};
+
+Size prepare(int width, int height) {
+  sim::SceneOptions scene;
+  scene.name = "office";
+  scene.camera.width = width;
+  scene.camera.height = height;
+  scene.camera.sigma_counts = kSigmaCounts;
+  Size size;
+  size.counts = std::move(must(sim::render(scene, 0)).counts);
   for (const auto& preset : kPresets) {
     for (const int threads : {1, 2}) {
       DetectorOptions options = preset_options(preset.value);
       options.threads = threads;
-      all.push_back({preset.value, threads, must(Detector::create(options)), {}, {}});
+      size.all.push_back({preset.value, threads, must(Detector::create(options)), {}, {}});
     }
   }
-  return all;
+  return size;
 }
 
-void run_round(ImageView<const std::uint16_t> counts, bool counted, std::vector<Runs>& all) {
-  for (Runs& runs : all) {
-    const Detection& detection = *must(runs.detector.detect(counts));
-    if (!counted) {
-      continue;
-    }
+void run_round(Size& size) {
+  for (Runs& runs : size.all) {
+    must(runs.detector.detect(size.counts));  // its memory was last touched a round ago
+    const Detection& detection = *must(runs.detector.detect(size.counts));
     for (const Stage& stage : kStages) {
       runs.stages_ms[stage.name].push_back(detection.ms.*stage.ms);
     }
     runs.total_ms.push_back(detection.ms.total());
+  }
+}
+
+void add_rows(Size& size, Csv& csv) {
+  for (Runs& runs : size.all) {
+    std::string row = fmt::format("{},{},{},{},{:.4f}", preset_name(runs.preset), runs.threads,
+                                  size.counts.width(), size.counts.height(), median(runs.total_ms));
+    for (const Stage& stage : kStages) {
+      row += fmt::format(",{:.4f}", median(runs.stages_ms[stage.name]));
+    }
+    csv.add(row);
   }
 }
 
@@ -56,26 +77,18 @@ void measure_scaling(const BenchOptions& options) {
     header += fmt::format(",{}_ms", stage.name);
   }
   Csv csv(options.out + "/scaling.csv", header);
+  std::vector<Size> sizes;
   for (const auto& [width, height] :
        {std::pair{160, 120}, {320, 256}, {382, 288}, {640, 512}, {1024, 768}, {1920, 1080}}) {
-    sim::SceneOptions scene;
-    scene.name = "office";
-    scene.camera.width = width;
-    scene.camera.height = height;
-    scene.camera.sigma_counts = kSigmaCounts;
-    const Image<std::uint16_t> counts = std::move(must(sim::render(scene, 0)).counts);
-    std::vector<Runs> all = all_runs();
-    for (int round = 0; round <= kRounds; ++round) {  // the first one takes memory
-      run_round(counts, round > 0, all);
+    sizes.push_back(prepare(width, height));
+  }
+  for (int round = 0; round < kRounds; ++round) {  // a busy moment of the machine hits all alike
+    for (Size& size : sizes) {
+      run_round(size);
     }
-    for (Runs& runs : all) {
-      std::string row = fmt::format("{},{},{},{},{:.4f}", preset_name(runs.preset), runs.threads,
-                                    width, height, median(runs.total_ms));
-      for (const Stage& stage : kStages) {
-        row += fmt::format(",{:.4f}", median(runs.stages_ms[stage.name]));
-      }
-      csv.add(row);
-    }
+  }
+  for (Size& size : sizes) {
+    add_rows(size, csv);
   }
   csv.write();
 }

@@ -105,13 +105,15 @@ def draw_time(rows, path):
             axes.scatter(float(row["ms"]), float(row["f"]), color=look["color"],
                          marker=look["marker"], s=40, zorder=3)
         heights = spread([float(row["f"]) for row in shown], 0.036)
+        heights = [height - max(0, max(heights) - 0.98) for height in heights]
         for row, height in zip(shown, heights):
             x = float(row["ms"])
             axes.annotate(row["contender"], (x, float(row["f"])), xytext=(x * 1.18, height),
                           va="center", fontsize=7.5, color=looks[row["contender"]]["color"],
                           arrowprops={"arrowstyle": "-", "color": "0.85", "linewidth": 0.6})
         axes.set_xscale("log")
-        axes.set_xlim(0.2, 2000)
+        axes.set_xlim(0.3, 1200)
+        axes.set_xticks([1, 10, 100], ["1", "10", "100"])
         axes.set_ylim(0, 1)
         axes.set_xlabel("ms for a frame of 382x288 on one thread")
         axes.set_title(f"noise of {noise} counts in a range of {RANGE_COUNTS}", fontsize=10)
@@ -154,7 +156,7 @@ def best_settings(rows):
 
 def draw_single_edges(rows, path):
     lengths = list(dict.fromkeys(row["length_px"] for row in rows))
-    figure, panels = plt.subplots(1, len(lengths), figsize=(13, 3.6), layout="constrained",
+    figure, panels = plt.subplots(1, len(lengths), figsize=(14, 4), layout="constrained",
                                   sharey=True)
     colours = {**OURS, **PEERS}
     for axes, length in zip(panels, lengths):
@@ -170,8 +172,7 @@ def draw_single_edges(rows, path):
         axes.set_xlabel("contrast / noise")
         axes.grid(alpha=0.25)
     panels[0].set_ylabel("share of the edges that are found")
-    figure.legend(*panels[0].get_legend_handles_labels(), loc="outside lower center", ncols=5,
-                  fontsize=8.5)
+    panels[0].legend(loc="upper left", fontsize=7)
     figure.suptitle("How faint an edge may be: single edges in noise with stripes, all detectors "
                     "at 0.1 false edges a frame or fewer", fontsize=11)
     figure.savefig(path, dpi=110)
@@ -201,7 +202,9 @@ def draw_false_alarms(rows, path):
                       label=f"thermedge {preset}")
         axes.set_xscale("log")
         axes.set_yscale("symlog", linthresh=0.1)
+        axes.axhline(0.1, color="black", linewidth=1, label="--max-false-alarms (default)")
         axes.set_ylim(-0.02, 200)
+        axes.set_xticks([1, 10, 100], ["1", "10", "100"])
         axes.set_yticks([0, 0.1, 1, 10, 100], ["0", "0.1", "1", "10", "100"])
         axes.set_xlabel("noise, counts (sigma)")
         axes.set_title(f"noise, {kind}" if kind != "plain" else "plain noise", fontsize=10)
@@ -218,13 +221,14 @@ def draw_false_alarms(rows, path):
     axes.plot([0.01, 1], [0.01, 1], color="black", linewidth=1, label="what was asked for")
     axes.set_xscale("log")
     axes.set_yscale("symlog", linthresh=0.01)
-    axes.set_ylim(-0.002, 3)
+    axes.set_ylim(-0.002, 100)
+    axes.set_xticks([0.01, 0.1, 1], ["0.01", "0.1", "1"])
     axes.set_yticks([0, 0.01, 0.1, 1], ["0", "0.01", "0.1", "1"])
     axes.set_xlabel("--max-false-alarms")
     axes.set_title("noise of 20 counts", fontsize=10)
     axes.grid(alpha=0.25)
-    axes.legend(fontsize=6.5)
-    panels[0].legend(fontsize=8)
+    axes.legend(fontsize=6.5, loc="upper left", handlelength=3.5)
+    panels[0].legend(fontsize=7.5, loc="center right")
     figure.suptitle("Edges found in frames that hold nothing")
     figure.savefig(path, dpi=110)
     plt.close(figure)
@@ -257,7 +261,7 @@ def draw_denoisers(rows, path):
         for y, line in enumerate(grid):
             best = max(value for value in line if not math.isnan(value))
             for x, value in enumerate(line):
-                text = "" if math.isnan(value) else f"{value:.2f}"
+                text = "\N{EN DASH}" if math.isnan(value) else f"{value:.2f}"
                 axes.text(x, y, text, ha="center", va="center", fontsize=8.5,
                           color="white" if value < 0.55 else "black",
                           weight="bold" if value == best else "normal")

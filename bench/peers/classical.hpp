@@ -6,11 +6,12 @@
 
 namespace thermedge::bench {
 
-// `threshold` as ClassicalOptions has it; 0: automatic.
+// `threshold` as ClassicalOptions has it, of Canny as CannyOptions::high_threshold; 0: automatic.
 inline void classical(ImageView<const std::uint8_t> levels, ClassicalMethod method,
                       double threshold, ImageView<std::uint8_t> map) {
   ClassicalOptions options;
-  options.threshold = threshold;
+  (method == ClassicalMethod::kCanny ? options.canny.high_threshold : options.threshold) =
+      threshold;
   Image<float> values(levels.width(), levels.height());
   copy_pixels(levels, values.view());
   must(ClassicalDetector(options).run(values, method, map, *make_runner(1)));
