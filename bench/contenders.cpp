@@ -29,7 +29,7 @@ using Map = ImageView<std::uint8_t>;
 constexpr ScaleOptions kScale;
 
 // Algorithm 1, then a filter of levels.
-Front front(std::string name, std::function<void(Levels, Map)> filter) {
+Front front(std::string name, const std::function<void(Levels, Map)>& filter) {
   return {std::move(name), [filter](Counts counts, Map levels) {
             Image<std::uint8_t> plain(counts.width(), counts.height());
             must(scale_to_8bit(counts, kScale, plain));
@@ -178,6 +178,7 @@ WholeDetector ours(const DetectorOptions& options) {
 
 std::vector<Contender> all_contenders() {
   std::vector<Contender> all;
+  all.reserve(16);
   for (const auto& preset : kPresets) {
     all.push_back({"thermedge " + std::string(preset.name),
                    "thermedge",
@@ -219,6 +220,7 @@ std::vector<Front> denoising_fronts() {
 
 std::vector<Contender> detectors_on_levels() {
   std::vector<Contender> all;
+  all.reserve(16);
   for (const ClassicalName& method : kClassicalMethods) {
     all.push_back(
         {std::string(method.display), "classical", {}, {}, classical_finders(method.method)});
@@ -235,7 +237,8 @@ std::vector<Contender> detectors_on_levels() {
 std::vector<Contender> peers_for_detection() {
 #ifdef THERMEDGE_BENCH_OPENCV
   std::vector<Finder> cannies;
-  for (double high = 4; high < 300; high *= 1.1) {
+  double high = 4;
+  for (int i = 0; i < 45; ++i, high *= 1.1) {  // up to 265
     cannies.push_back({fmt::format("high {:.1f}", high),
                        [high](Levels levels, Map map) { opencv_canny(levels, high, map); }});
   }

@@ -45,6 +45,7 @@ void add_rows(const std::string& set, double noise, const std::vector<Contender>
 void add_others(const std::string& set, const std::vector<Contender>& all, const Settings& settings,
                 const std::vector<TestFrame>& frames, Csv& csv) {
   std::vector<double> sigmas;
+  sigmas.reserve(frames.size());
   for (const TestFrame& frame : frames) {
     sigmas.push_back(NoiseEstimator().measure(frame.counts).sigma_counts);
   }

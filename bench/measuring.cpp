@@ -94,6 +94,7 @@ std::vector<CleanScene> random_scenes(std::uint64_t first_seed, int count) {
 std::vector<TestFrame> exposed(const std::vector<CleanScene>& scenes, double sigma_counts,
                                std::uint64_t seed) {
   std::vector<TestFrame> frames;
+  frames.reserve(scenes.size());
   for (const CleanScene& scene : scenes) {
     frames.push_back({expose(scene, sigma_counts, seed + frames.size()), copy(scene.truth)});
   }

@@ -38,6 +38,7 @@ std::vector<Point> convex(double size, Point centre, Draws& draws) {
   std::generate(angles.begin(), angles.end(), [&] { return draws.uniform(0, kTurn); });
   std::sort(angles.begin(), angles.end());
   std::vector<Point> corners;
+  corners.reserve(angles.size());
   for (const double angle : angles) {
     corners.push_back(place({size, 0}, angle, centre));
   }

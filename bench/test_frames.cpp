@@ -214,8 +214,9 @@ SingleEdge single_edge(double length_px, bool curved, double contrast_counts, st
   SingleEdge edge;
   edge.clean.resize(kWidth, kHeight);
   optics.run(fine, edge.clean, *make_runner(1));
-  for (double along = -length_px / 2; along <= length_px / 2; along += 0.5) {
-    edge.points.push_back(line.at(along));
+  const auto steps = static_cast<int>(2 * length_px);
+  for (int i = 0; i <= steps; ++i) {
+    edge.points.push_back(line.at((i - length_px) / 2));
   }
   return edge;
 }

@@ -7,24 +7,27 @@
 
 namespace thermedge::bench {
 
-// `blur_px`: its own Gaussian in front.
-inline void opencv_edge_drawing(ImageView<const std::uint8_t> levels, int gradient_threshold,
-                                ImageView<std::uint8_t> map) {
+inline void draw_edges(const cv::ximgproc::EdgeDrawing::Params& params,
+                       ImageView<const std::uint8_t> levels, ImageView<std::uint8_t> map) {
   const auto detector = cv::ximgproc::createEdgeDrawing();
-  detector->params.GradientThresholdValue = gradient_threshold;
+  detector->params = params;
   detector->detectEdges(mat(levels));
   cv::Mat edges;
   detector->getEdgeImage(edges);
   edges.copyTo(mat(map));
 }
 
+inline void opencv_edge_drawing(ImageView<const std::uint8_t> levels, int gradient_threshold,
+                                ImageView<std::uint8_t> map) {
+  cv::ximgproc::EdgeDrawing::Params params;
+  params.GradientThresholdValue = gradient_threshold;
+  draw_edges(params, levels, map);
+}
+
 inline void opencv_edpf(ImageView<const std::uint8_t> levels, ImageView<std::uint8_t> map) {
-  const auto detector = cv::ximgproc::createEdgeDrawing();
-  detector->params.PFmode = true;
-  detector->detectEdges(mat(levels));
-  cv::Mat edges;
-  detector->getEdgeImage(edges);
-  edges.copyTo(mat(map));
+  cv::ximgproc::EdgeDrawing::Params params;
+  params.PFmode = true;
+  draw_edges(params, levels, map);
 }
 
 }  // namespace thermedge::bench
