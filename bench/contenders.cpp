@@ -222,8 +222,7 @@ std::vector<Contender> detectors_on_levels() {
   std::vector<Contender> all;
   all.reserve(16);
   for (const ClassicalName& method : kClassicalMethods) {
-    all.push_back(
-        {std::string(method.display), "classical", {}, {}, classical_finders(method.method)});
+    all.push_back({display_name(method), "classical", {}, {}, classical_finders(method.method)});
   }
 #ifdef THERMEDGE_BENCH_OPENCV
   all.push_back({"OpenCV Canny", "OpenCV", {}, {}, canny_finders()});

@@ -92,6 +92,20 @@ def draw_noise(rows, path):
     plt.close(figure)
 
 
+def label_heights(rows):
+    """Only labels that stand beside each other give way to each other."""
+    columns = {}
+    for row in rows:
+        columns.setdefault(sum(float(row["ms"]) > bound for bound in (1.8, 5)), []).append(row)
+    heights = {}
+    for column in columns.values():
+        placed = spread([float(row["f"]) for row in column], 0.036)
+        below = max(0, max(placed) - 0.98)
+        heights.update({row["contender"]: height - below
+                        for row, height in zip(column, placed)})
+    return [heights[row["contender"]] for row in rows]
+
+
 def draw_time(rows, path):
     figure, panels = plt.subplots(1, 2, figsize=(11, 4.8), layout="constrained", sharey=True)
     looks = style([row for row in rows if row["set"] == "random"])
@@ -104,8 +118,7 @@ def draw_time(rows, path):
             look = looks[row["contender"]]
             axes.scatter(float(row["ms"]), float(row["f"]), color=look["color"],
                          marker=look["marker"], s=40, zorder=3)
-        heights = spread([float(row["f"]) for row in shown], 0.036)
-        heights = [height - max(0, max(heights) - 0.98) for height in heights]
+        heights = label_heights(shown)
         for row, height in zip(shown, heights):
             x = float(row["ms"])
             axes.annotate(row["contender"], (x, float(row["f"])), xytext=(x * 1.18, height),
