@@ -187,7 +187,7 @@ def draw_single_edges(rows, path):
     panels[0].set_ylabel("share of the edges that are found")
     panels[0].legend(loc="upper left", fontsize=7)
     figure.suptitle("How faint an edge may be: single edges in noise with stripes, all detectors "
-                    "at 0.1 false edges a frame or fewer", fontsize=11)
+                    "set to 0.1 false edges a frame", fontsize=11)
     figure.savefig(path, dpi=110)
     plt.close(figure)
 
