@@ -84,21 +84,21 @@ struct Denoiser::Impl {
   explicit Impl(const DenoiseOptions& chosen)
       : options(chosen), options_status(check_denoise_options(chosen)) {}
 
-  // `ripple_share`: of the ripple filter's range.
-  Status run(ImageView<const float> in, double sigma, double ripple_share, ImageView<float> out,
+  // `burden`: see run_measured.
+  Status run(ImageView<const float> in, double sigma, double burden, ImageView<float> out,
              Runner& runner) {
     if (!options.shading) {
-      return run_filters(in, sigma, ripple_share, out, runner);
+      return run_filters(in, sigma, burden, out, runner);
     }
     shading.measure(in);
     shading.take_off(in, out);
-    return run_filters(out, sigma, ripple_share, out, runner).map([&] { shading.put_back(out); });
+    return run_filters(out, sigma, burden, out, runner).map([&] { shading.put_back(out); });
   }
 
-  Status run_filters(ImageView<const float> in, double sigma, double ripple_share,
-                     ImageView<float> out, Runner& runner) {
-    return run_method(in, sigma * options.strength, out, runner).and_then([&]() -> Status {
-      const double range = ripple_share * options.ripple.range_sigmas;
+  Status run_filters(ImageView<const float> in, double sigma, double burden, ImageView<float> out,
+                     Runner& runner) {
+    return run_method(in, sigma * options.strength, burden, out, runner).and_then([&]() -> Status {
+      const double range = burden * options.ripple.range_sigmas;
       if (range > 0) {
         if (Status status = check_sigma(sigma); !status) {
           return status;
@@ -109,13 +109,14 @@ struct Denoiser::Impl {
     });
   }
 
-  Status run_method(ImageView<const float> in, double sigma, ImageView<float> out, Runner& runner) {
+  Status run_method(ImageView<const float> in, double sigma, double burden, ImageView<float> out,
+                    Runner& runner) {
     switch (options.method) {
       case DenoiseMethod::kNone:
         copy_pixels(in, out);
         return {};
       case DenoiseMethod::kGaussian:
-        gaussian.run(in, out, runner);
+        gaussian.run(in, burden, out, runner);
         return {};
       case DenoiseMethod::kNlm:
         return run_in_noise_units(nlm, in, sigma, out, runner);
@@ -200,14 +201,14 @@ Status Denoiser::run(ImageView<const float> in, double sigma, ImageView<float> o
 }
 
 Status Denoiser::run_measured(ImageView<const float> in, double sigma, ImageView<float> out,
-                              Runner& runner, double ripple) {
+                              Runner& runner, double burden) {
   const DenoiseMethod method = impl_->options.method;
   const bool needs_noise = method == DenoiseMethod::kNlm || method == DenoiseMethod::kBm3d ||
                            impl_->options.ripple.range_sigmas > 0;
   if (sigma == 0 && needs_noise) {
     return impl_->guarded(in, out, [&] { return impl_->copy_clean(in, out); });
   }
-  return impl_->guarded(in, out, [&] { return impl_->run(in, sigma, ripple, out, runner); });
+  return impl_->guarded(in, out, [&] { return impl_->run(in, sigma, burden, out, runner); });
 }
 
 }  // namespace thermedge

@@ -22,9 +22,11 @@ int GaussianFilter::radius() const {
                                 : static_cast<int>(std::ceil(4 * options_.sigma_px));
 }
 
-void GaussianFilter::make_weights() {
+void GaussianFilter::make_weights(double share) {
+  constexpr double kNarrowestPx = 0.1;  // as good as nothing
   const auto reach = static_cast<std::size_t>(radius());
-  const double scale = -0.5 / (options_.sigma_px * options_.sigma_px);
+  const double sigma_px = std::max(share * options_.sigma_px, kNarrowestPx);
+  const double scale = -0.5 / (sigma_px * sigma_px);
   double sum = 1;
   for (std::size_t i = 1; i <= reach; ++i) {
     sum += 2 * portable_exp(scale * static_cast<double>(i * i));
@@ -47,16 +49,18 @@ void GaussianFilter::filter_row(int y, float* scratch, float* more_scratch, floa
 }
 
 void GaussianFilter::prepare(int width, int height) {
-  if (weights_.empty() && options_.sigma_px > 0) {
-    make_weights();
-  }
   const int reach = radius();
+  weights_.reserve(static_cast<std::size_t>(reach) + 1);
   padded_.resize(width + 2 * reach, height + 2 * reach);
   rows_.resize(padded_.width(), kScratchRows * tasks(height));
 }
 
-void GaussianFilter::run(ImageView<const float> in, ImageView<float> out, Runner& runner) {
+void GaussianFilter::run(ImageView<const float> in, double share, ImageView<float> out,
+                         Runner& runner) {
   prepare(in.width(), in.height());
+  if (options_.sigma_px > 0) {
+    make_weights(share);
+  }
   const int reach = radius();
   for (int y = 0; y < padded_.height(); ++y) {
     mirrored_row(in, y - reach, reach, padded_.width(), padded_.row(y));

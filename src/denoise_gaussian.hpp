@@ -14,12 +14,12 @@ class GaussianFilter {
   // For frames of this size; run does it otherwise.
   void prepare(int width, int height);
 
-  // `out` may be `in`.
-  void run(ImageView<const float> in, ImageView<float> out, Runner& runner);
+  // `out` may be `in`. `share`, 0 to 1: of the standard deviation; not of the 5x5 kernel.
+  void run(ImageView<const float> in, double share, ImageView<float> out, Runner& runner);
 
  private:
   [[nodiscard]] int radius() const;
-  void make_weights();
+  void make_weights(double share);
   void filter_row(int y, float* scratch, float* more_scratch, float* result) const;
 
   GaussianOptions options_;

@@ -23,6 +23,9 @@ constexpr double kStripesLeft = 0.08;
 constexpr double kShareLeft = 1.0 / 6;
 // Noise below this share of the frame's range is none.
 constexpr double kNoNoise = 0.002;
+// Without noise a slope comes as terraces of one count, which are no edges: so much is added to the
+// noise then.
+constexpr double kRoundingCounts = 10;
 // Noise of such shares of the range is next to no burden, and a full one.
 constexpr double kCleanNoise = 0.005;
 constexpr double kFullNoise = 0.03;
@@ -160,7 +163,8 @@ Status Detector::Impl::detect_oriented(int bits) {
       options.denoise.sigma_counts > 0 ? options.denoise.sigma_counts : result.noise.sigma_counts;
   const double range = range_of_counts();
   result.sigma_counts = sigma > kNoNoise * range ? sigma : 0;
-  const double unit = std::hypot(sigma, options.oriented.noise_floor * range);
+  const double rounding = result.sigma_counts > 0 ? 0 : kRoundingCounts;
+  const double unit = std::hypot(sigma, options.oriented.noise_floor * range, rounding);
   result.range_counts = range;
   result.unit_counts = unit;
   const double noisiness =
@@ -242,7 +246,8 @@ Status Detector::Impl::denoise_counts(int bits, double noisiness) {
   const Stopwatch watch(result.ms.denoise);
   working.resize(result.width, result.height);
   copy_pixels(result.corrected, working.view());
-  // The ripple that BM3D leaves is a matter of strong noise, and taking it off steepens slopes.
+  // Where noise is next to no burden, a Gaussian only blurs; and the ripple that BM3D leaves is a
+  // matter of strong noise: taking it off steepens slopes.
   if (Status status =
           denoiser.run_measured(working, result.sigma_counts, working, *runner, noisiness);
       !status) {

@@ -78,10 +78,11 @@ class Denoiser {
                            Runner& runner);
 
   // The same for the `sigma` that NoiseEstimator measured: where it found none, which it says with
-  // 0, there is nothing to remove and the frame is copied. `ripple`, 0 to 1, is the share of
-  // options.ripple.range_sigmas that this frame needs.
+  // 0, there is nothing to remove and the frame is copied. `burden`, 0 to 1, says how much
+  // of one the noise is: so large a share of options.ripple.range_sigmas and of the Gaussian's
+  // standard deviation is applied.
   [[nodiscard]] Status run_measured(ImageView<const float> in, double sigma, ImageView<float> out,
-                                    Runner& runner, double ripple = 1);
+                                    Runner& runner, double burden = 1);
 
  private:
   struct Impl;

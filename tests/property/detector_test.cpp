@@ -256,6 +256,19 @@ TEST(Detector, FindsNothingInAFlatFrame) {
   }
 }
 
+// Without noise, slopes come as terraces one count high. Only the wall is an edge.
+TEST(RobustDetector, FindsNoTerracesInARoundedSlope) {
+  Image<std::uint16_t> slope(192, 144);
+  for (int y = 0; y < slope.height(); ++y) {
+    for (int x = 0; x < slope.width(); ++x) {
+      const double wall = x > 170 ? 120 : 0;
+      slope(x, y) = static_cast<std::uint16_t>(std::lround(3000 + 0.04 * x + 0.03 * y + wall));
+    }
+  }
+  Detector one = detector(preset_options(Preset::kRobust));
+  EXPECT_EQ((*one.detect(slope))->edges.kept, 1U);
+}
+
 TEST(Detector, TakesAViewIntoALargerBuffer) {
   const auto frame = small_desk(6);
   Image<std::uint16_t> buffer(300, 200);

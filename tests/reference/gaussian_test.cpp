@@ -127,6 +127,26 @@ TEST(GaussianTest, AnySigmaAgreesWithTheDoubleSum) {
   }
 }
 
+// A frame that needs less is blurred less, down to not at all.
+TEST(GaussianTest, BlursByTheBurdenOfTheNoise) {
+  DenoiseOptions options;
+  options.method = DenoiseMethod::kGaussian;
+  options.gaussian.sigma_px = 2;
+  Denoiser denoiser(options);
+  const auto in = test::noise_image<float>(40, 30, 1000, 50, 5);
+  const auto runner = make_runner(1);
+  for (const double burden : {0.0, 0.3, 0.5, 1.0}) {
+    Image<float> out(in.width(), in.height());
+    ASSERT_TRUE(denoiser.run_measured(in, 50, out, *runner, burden));
+    const auto expected = gaussian_reference(in, std::max(2 * burden, 0.1));
+    for (int y = 0; y < in.height(); ++y) {
+      for (int x = 0; x < in.width(); ++x) {
+        ASSERT_NEAR(out(x, y), expected(x, y), 0.02) << burden << " at " << x << ", " << y;
+      }
+    }
+  }
+}
+
 TEST(GaussianTest, ImpulseResponseIsTheNormalDensity) {
   constexpr double kSigma = 3;
   Image<float> in(61, 61);
