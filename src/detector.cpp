@@ -26,9 +26,10 @@ constexpr double kNoNoise = 0.002;
 // Without noise a slope comes as terraces of one count, which are no edges: so much is added to the
 // noise then.
 constexpr double kRoundingCounts = 10;
-// Noise of such shares of the range is next to no burden, and a full one.
-constexpr double kCleanNoise = 0.005;
-constexpr double kFullNoise = 0.03;
+// Noise of such shares of the range is next to no burden, and a full one. From the first on a
+// Gaussian blurs as much as its options say.
+constexpr double kCleanNoise = 0.036;
+constexpr double kFullNoise = 0.05;
 
 using Clock = std::chrono::steady_clock;
 
@@ -99,7 +100,7 @@ struct Detector::Impl {
   Status detect_oriented(int bits);
   Status bridge();
   double range_of_counts();
-  Status denoise_counts(int bits, double noisiness);
+  Status denoise_counts(int bits, double burden);
   void show_denoised();
 
   void begin(int width, int height);
@@ -170,7 +171,10 @@ Status Detector::Impl::detect_oriented(int bits) {
   const double noisiness =
       std::clamp((sigma / range - kCleanNoise) / (kFullNoise - kCleanNoise), 0.0, 1.0);
   return scale(bits)
-      .and_then([&] { return denoise_counts(bits, noisiness); })
+      .and_then([&] {
+        const bool blurs = options.denoise.method == DenoiseMethod::kGaussian;
+        return denoise_counts(bits, blurs ? std::min(sigma / range / kCleanNoise, 1.0) : noisiness);
+      })
       .and_then([&] {
         const Stopwatch watch(result.ms.canny);
         return oriented.run(working, unit, noisiness, *runner)
@@ -242,14 +246,13 @@ double Detector::Impl::range_of_counts() {
   return std::max(quantile(1 - kTail) - quantile(kTail), kLeast);
 }
 
-Status Detector::Impl::denoise_counts(int bits, double noisiness) {
+Status Detector::Impl::denoise_counts(int bits, double burden) {
   const Stopwatch watch(result.ms.denoise);
   working.resize(result.width, result.height);
   copy_pixels(result.corrected, working.view());
   // Where noise is next to no burden, a Gaussian only blurs; and the ripple that BM3D leaves is a
   // matter of strong noise: taking it off steepens slopes.
-  if (Status status =
-          denoiser.run_measured(working, result.sigma_counts, working, *runner, noisiness);
+  if (Status status = denoiser.run_measured(working, result.sigma_counts, working, *runner, burden);
       !status) {
     return status;
   }

@@ -52,7 +52,8 @@ DetectorOptions preset_options(Preset preset) {
     options.denoise.method = DenoiseMethod::kGaussian;
     options.denoise.gaussian.sigma_px = 2;
     options.denoise.ripple.range_sigmas = 0.3;
-    options.selection.min_score = 0.6;
+    options.denoise.shading = true;
+    options.selection.min_score = 0.15;
   } else if (preset == Preset::kPaper) {
     options.edges = EdgeMethod::kCanny;
     options.nuc = {};

@@ -17,7 +17,7 @@ struct OrientedOptions {
   double clean_along_px = 1.0;
   double low = 0.1;           // hysteresis, in units of the noise before denoising, > 0
   double high = 0.2;          // from `low` up
-  double noise_floor = 0.06;  // least noise assumed, of the frame's range (p99.9 - p0.1), 0..0.1
+  double noise_floor = 0.08;  // least noise assumed, of the frame's range (p99.9 - p0.1), 0..0.1
   double fine_px = 0.8;       // standard deviation of the fine derivative, 0.5..2; 0: none
   double fine_above = 1;      // the response of the fine one from which it decides, > 0
 };
