@@ -60,7 +60,9 @@ double root_mean_square(std::span<const float> values) {
 double stripes_left(const StripeOffsets& removed, double sigma) {
   const double strength =
       std::max(root_mean_square(removed.columns), root_mean_square(removed.rows)) / sigma;
-  return strength > 0 ? std::max(kStripesLeft, kShareLeft * strength) : 0;
+  constexpr double kRounding = 0.2887;  // counts: 1 / sqrt(12), corrected counts are whole ones
+  return strength > 0 ? std::hypot(std::max(kStripesLeft, kShareLeft * strength), kRounding / sigma)
+                      : 0;
 }
 
 std::uint8_t to_level(float value) {
