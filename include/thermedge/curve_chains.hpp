@@ -28,8 +28,6 @@ class CurveChains {
 
   [[nodiscard]] std::int32_t ends() const { return static_cast<std::int32_t>(ends_.size()); }
   [[nodiscard]] bool is_free(std::int32_t end) const;
-  // The other end of the chain that `end`, a free one, is an end of.
-  [[nodiscard]] std::int32_t far_end(std::int32_t end) const { return at(end).far; }
   // Joins two free ends. True: they were those of one chain, which is a loop now.
   bool join(std::int32_t a, std::int32_t b, std::optional<Pixel> corner = std::nullopt);
   // Carries a free end on to a pixel, which becomes the last one.
