@@ -7,11 +7,11 @@
 
 #include "must.hpp"
 #include "peers/classical.hpp"
-#include "thermedge/denoise.hpp"
 #include "thermedge/detector.hpp"
-#include "thermedge/fields.hpp"
-#include "thermedge/noise.hpp"
-#include "thermedge/radiometry.hpp"
+#include "thermedge/edge_fields.hpp"
+#include "thermedge/radiometry/grey_scale.hpp"
+#include "thermedge/stages/denoiser.hpp"
+#include "thermedge/stages/noise.hpp"
 #ifdef THERMEDGE_BENCH_OPENCV
 #include "peers/opencv_canny.hpp"
 #include "peers/opencv_edge_drawing.hpp"

@@ -18,11 +18,11 @@
 #include <utility>
 #include <vector>
 
-#include "thermedge/denoise.hpp"
 #include "thermedge/io/source.hpp"
 #include "thermedge/options.hpp"
 #include "thermedge/sim/scene.hpp"
 #include "thermedge/simd.hpp"
+#include "thermedge/stages/denoiser.hpp"
 #ifdef THERMEDGE_BENCH_OPENCV
 #include "peers/opencv_gaussian.hpp"
 #include "peers/opencv_nlm.hpp"

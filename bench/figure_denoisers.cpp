@@ -6,7 +6,7 @@
 #include "measuring.hpp"
 #include "must.hpp"
 #include "thermedge/detector.hpp"
-#include "thermedge/fields.hpp"
+#include "thermedge/edge_fields.hpp"
 
 namespace thermedge::bench {
 namespace {

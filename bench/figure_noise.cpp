@@ -7,7 +7,7 @@
 #include "csv.hpp"
 #include "figures.hpp"
 #include "measuring.hpp"
-#include "thermedge/noise.hpp"
+#include "thermedge/stages/noise.hpp"
 
 namespace thermedge::bench {
 namespace {

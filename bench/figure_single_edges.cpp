@@ -7,10 +7,10 @@
 #include "csv.hpp"
 #include "figures.hpp"
 #include "measuring.hpp"
-#include "thermedge/correction.hpp"
 #include "thermedge/detector.hpp"
-#include "thermedge/fields.hpp"
-#include "thermedge/noise.hpp"
+#include "thermedge/edge_fields.hpp"
+#include "thermedge/stages/noise.hpp"
+#include "thermedge/stages/preprocessor.hpp"
 
 namespace thermedge::bench {
 namespace {

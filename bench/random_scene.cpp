@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "sim/src/optics.hpp"
+#include "optics.hpp"
 #include "thermedge/eval/thinning.hpp"
 
 namespace thermedge::bench {

@@ -7,7 +7,7 @@
 #include "shapes.hpp"
 #include "thermedge/eval/counts.hpp"
 #include "thermedge/image.hpp"
-#include "thermedge/parallel.hpp"
+#include "thermedge/parallel_runner.hpp"
 
 namespace thermedge::bench {
 

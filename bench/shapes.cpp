@@ -5,7 +5,7 @@
 #include <numbers>
 #include <utility>
 
-#include "sim/src/portable.hpp"
+#include "portable.hpp"
 
 namespace thermedge::bench {
 namespace {

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "sim/src/random.hpp"
+#include "random.hpp"
 #include "thermedge/eval/curves.hpp"
 
 namespace thermedge::bench {

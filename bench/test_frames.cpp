@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "must.hpp"
-#include "sim/src/optics.hpp"
-#include "sim/src/portable.hpp"
-#include "sim/src/sensor.hpp"
+#include "optics.hpp"
+#include "portable.hpp"
+#include "sensor.hpp"
 #include "thermedge/eval/files.hpp"
 #include "thermedge/eval/thinning.hpp"
 #include "thermedge/io/source.hpp"

@@ -10,13 +10,13 @@
 
 #include "commands.hpp"
 #include "common.hpp"
-#include "thermedge/correction.hpp"
-#include "thermedge/denoise.hpp"
 #include "thermedge/io/config.hpp"
 #include "thermedge/io/write.hpp"
-#include "thermedge/noise.hpp"
-#include "thermedge/radiometry.hpp"
-#include "thermedge/stable_view.hpp"
+#include "thermedge/radiometry/grey_scale.hpp"
+#include "thermedge/radiometry/stable_grey_scale.hpp"
+#include "thermedge/stages/denoiser.hpp"
+#include "thermedge/stages/noise.hpp"
+#include "thermedge/stages/preprocessor.hpp"
 
 namespace thermedge::cli {
 namespace {

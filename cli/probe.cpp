@@ -1,5 +1,5 @@
 // `probe`: what a recording is like.
-#include "thermedge/probe.hpp"
+#include "thermedge/probe/probe.hpp"
 
 #include <fmt/core.h>
 
@@ -12,7 +12,7 @@
 #include "thermedge/figures/probe_sheet.hpp"
 #include "thermedge/io/probe_file.hpp"
 #include "thermedge/io/write.hpp"
-#include "thermedge/radiation.hpp"
+#include "thermedge/radiometry/planck.hpp"
 
 namespace thermedge::cli {
 namespace {

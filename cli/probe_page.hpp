@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "thermedge/probe.hpp"
+#include "thermedge/probe/probe.hpp"
 
 namespace thermedge::cli {
 

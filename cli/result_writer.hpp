@@ -8,7 +8,7 @@
 
 #include "common.hpp"
 #include "thermedge/detector.hpp"
-#include "thermedge/fields.hpp"
+#include "thermedge/edge_fields.hpp"
 #include "thermedge/io/edges_file.hpp"
 #include "thermedge/io/write.hpp"
 

@@ -3,7 +3,7 @@
 include(CMakePackageConfigHelpers)
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/thermedge)
-install(TARGETS thermedge_base thermedge_simd thermedge_stages thermedge thermedge_io thermedge_sim
+install(TARGETS thermedge thermedge_io thermedge_sim
   EXPORT thermedgeTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(DIRECTORY include/thermedge sim/include/thermedge DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(EXPORT thermedgeTargets NAMESPACE thermedge:: DESTINATION ${package_dir})

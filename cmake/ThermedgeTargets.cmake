@@ -1,4 +1,4 @@
-# What every target of this project is compiled with.
+# What every target of this project is compiled with, and how rooms and libraries are made.
 include(GNUInstallDirs)
 
 add_library(thermedge_settings INTERFACE)
@@ -7,7 +7,7 @@ target_compile_features(thermedge_settings INTERFACE cxx_std_20)
 # would differ between CPUs.
 target_compile_options(thermedge_settings INTERFACE
   -ffp-contract=off -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
-  # GCC 12 sees overlaps in std::string that are none (its bug 105651).
+  # GCC 12 reports overlaps in std::string that are none (its bug 105651).
   $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>
   $<$<BOOL:${THERMEDGE_WERROR}>:-Werror>)
 if(THERMEDGE_SANITIZE)
@@ -16,17 +16,48 @@ if(THERMEDGE_SANITIZE)
   target_link_options(thermedge_settings INTERFACE -fsanitize=${THERMEDGE_SANITIZE})
 endif()
 
-# thermedge_library(NAME SOURCES ... [PUBLIC libs ...] [PRIVATE libs ...])
-# One layer of the library. What it may use is what it links: lower layers only.
+# thermedge_room(NAME SOURCES files... [ROOMS rooms...] [LIBRARIES libs...])
+# A room is a folder of src/ with one object library. Its include path is the public headers, its
+# own folder, and the folders of the rooms that it names; these name theirs for themselves. The
+# list of rooms is what tests/rooms checks the sources against.
+function(thermedge_room room)
+  cmake_parse_arguments(ARG "" "" "SOURCES;ROOMS;LIBRARIES" ${ARGN})
+  set(target thermedge_room_${room})
+  add_library(${target} OBJECT ${ARG_SOURCES})
+  target_include_directories(${target} PUBLIC
+    ${PROJECT_SOURCE_DIR}/include ${CMAKE_CURRENT_SOURCE_DIR})
+  target_link_libraries(${target} PUBLIC tl::expected
+    PRIVATE thermedge_settings ${ARG_LIBRARIES})
+  list(TRANSFORM ARG_ROOMS PREPEND thermedge_room_ OUTPUT_VARIABLE rooms)
+  target_link_libraries(${target} PRIVATE ${rooms})
+  set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+  set_property(GLOBAL APPEND PROPERTY THERMEDGE_ROOMS ${room})
+  set_property(GLOBAL PROPERTY THERMEDGE_ROOMS_OF_${room} "${ARG_ROOMS}")
+endfunction()
+
+# thermedge_library(NAME SOURCES files... [ROOMS rooms...] [PUBLIC libs...] [PRIVATE libs...]
+#                   [INCLUDE folder])
+# A library that is installed: shared or static as BUILD_SHARED_LIBS says. ROOMS are those whose
+# private headers it may include; INCLUDE holds its public headers where they are not in include/.
 function(thermedge_library name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
-  add_library(${name} STATIC ${ARG_SOURCES})
+  cmake_parse_arguments(ARG "" "INCLUDE" "SOURCES;ROOMS;PUBLIC;PRIVATE" ${ARGN})
+  add_library(${name} ${ARG_SOURCES})
   target_include_directories(${name} PUBLIC
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>
     $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
-  target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/src)
+  if(ARG_INCLUDE)
+    target_include_directories(${name} PUBLIC
+      $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/${ARG_INCLUDE}>)
+  endif()
+  foreach(room IN LISTS ARG_ROOMS)
+    target_include_directories(${name} PRIVATE
+      $<TARGET_PROPERTY:thermedge_room_${room},INTERFACE_INCLUDE_DIRECTORIES>)
+  endforeach()
   target_compile_features(${name} PUBLIC cxx_std_20)
-  set_target_properties(${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+  set_target_properties(${name} PROPERTIES
+    POSITION_INDEPENDENT_CODE ON
+    VERSION ${PROJECT_VERSION}
+    SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
   target_link_libraries(${name} PUBLIC ${ARG_PUBLIC}
     PRIVATE $<BUILD_INTERFACE:thermedge_settings> ${ARG_PRIVATE})
   add_library(thermedge::${name} ALIAS ${name})

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "../must.hpp"
-#include "thermedge/classical.hpp"
+#include "thermedge/stages/classical.hpp"
 
 namespace thermedge::bench {
 

@@ -6,8 +6,8 @@
 #include <functional>
 #include <system_error>
 
-#include "io/files.hpp"
-#include "io/guard.hpp"
+#include "thermedge/catch_bad_alloc.hpp"
+#include "thermedge/io/files.hpp"
 #include "thermedge/io/source.hpp"
 #include "truth_maps.hpp"
 

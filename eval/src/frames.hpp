@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "io/guard.hpp"
+#include "thermedge/catch_bad_alloc.hpp"
 #include "thermedge/eval/evaluate.hpp"
 
 namespace thermedge::eval {

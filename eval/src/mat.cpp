@@ -7,7 +7,7 @@
 #include <string_view>
 #include <system_error>
 
-#include "io/guard.hpp"
+#include "thermedge/catch_bad_alloc.hpp"
 #include "thermedge/eval/files.hpp"
 #include "truth_maps.hpp"
 

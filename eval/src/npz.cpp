@@ -5,9 +5,9 @@
 #include <optional>
 #include <span>
 
-#include "io/files.hpp"
-#include "io/guard.hpp"
+#include "thermedge/catch_bad_alloc.hpp"
 #include "thermedge/eval/files.hpp"
+#include "thermedge/io/files.hpp"
 #include "thermedge/io/source.hpp"
 #include "truth_maps.hpp"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "thermedge/fields.hpp"
+#include "thermedge/edge_fields.hpp"
 
 namespace thermedge::eval {
 namespace {

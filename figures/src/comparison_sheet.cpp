@@ -10,9 +10,9 @@
 
 #include "denoiser_names.hpp"
 #include "frame_panels.hpp"
-#include "thermedge/denoise.hpp"
 #include "thermedge/detector.hpp"
-#include "thermedge/fields.hpp"
+#include "thermedge/edge_fields.hpp"
+#include "thermedge/stages/denoiser.hpp"
 
 namespace thermedge::figures {
 namespace {

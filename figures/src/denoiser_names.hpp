@@ -3,7 +3,7 @@
 
 #include <string_view>
 
-#include "thermedge/denoise.hpp"
+#include "thermedge/stages/denoiser.hpp"
 
 namespace thermedge::figures {
 

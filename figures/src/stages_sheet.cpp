@@ -10,9 +10,9 @@
 #include "denoiser_names.hpp"
 #include "frame_panels.hpp"
 #include "thermedge/detector.hpp"
-#include "thermedge/fields.hpp"
+#include "thermedge/edge_fields.hpp"
 #include "thermedge/io/overlay.hpp"
-#include "thermedge/radiometry.hpp"
+#include "thermedge/radiometry/grey_scale.hpp"
 
 namespace thermedge::figures {
 namespace {

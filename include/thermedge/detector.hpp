@@ -7,16 +7,16 @@
 #include <span>
 #include <string_view>
 
-#include "thermedge/contours.hpp"
-#include "thermedge/edges.hpp"
+#include "thermedge/edge_set.hpp"
 #include "thermedge/image.hpp"
-#include "thermedge/linking.hpp"
-#include "thermedge/noise.hpp"
-#include "thermedge/nuc.hpp"
 #include "thermedge/options.hpp"
-#include "thermedge/parallel.hpp"
+#include "thermedge/parallel_runner.hpp"
 #include "thermedge/result.hpp"
-#include "thermedge/stripes.hpp"
+#include "thermedge/stages/bad_pixels.hpp"
+#include "thermedge/stages/contours.hpp"
+#include "thermedge/stages/linking.hpp"
+#include "thermedge/stages/noise.hpp"
+#include "thermedge/stages/stripes.hpp"
 
 namespace thermedge {
 

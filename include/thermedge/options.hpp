@@ -11,20 +11,20 @@
 #include <type_traits>
 #include <utility>
 
-#include "thermedge/bridging.hpp"
-#include "thermedge/canny.hpp"
-#include "thermedge/contours.hpp"
-#include "thermedge/corners.hpp"
-#include "thermedge/denoise.hpp"
-#include "thermedge/edge_graph.hpp"
-#include "thermedge/linking.hpp"
-#include "thermedge/nuc.hpp"
-#include "thermedge/oriented.hpp"
-#include "thermedge/radiometry.hpp"
+#include "thermedge/radiometry/grey_scale.hpp"
+#include "thermedge/radiometry/stable_grey_scale.hpp"
 #include "thermedge/result.hpp"
-#include "thermedge/scoring.hpp"
-#include "thermedge/selection.hpp"
-#include "thermedge/stable_view.hpp"
+#include "thermedge/stages/bad_pixels.hpp"
+#include "thermedge/stages/canny.hpp"
+#include "thermedge/stages/contours.hpp"
+#include "thermedge/stages/corners.hpp"
+#include "thermedge/stages/denoiser.hpp"
+#include "thermedge/stages/edge_graph.hpp"
+#include "thermedge/stages/gap_closing.hpp"
+#include "thermedge/stages/linking.hpp"
+#include "thermedge/stages/oriented_filter.hpp"
+#include "thermedge/stages/scoring.hpp"
+#include "thermedge/stages/selection.hpp"
 
 namespace thermedge {
 

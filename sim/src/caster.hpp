@@ -7,7 +7,7 @@
 
 #include "facets.hpp"
 #include "radiometer.hpp"
-#include "thermedge/parallel.hpp"
+#include "thermedge/parallel_runner.hpp"
 #include "view.hpp"
 
 namespace thermedge::sim {

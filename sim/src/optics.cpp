@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "denoise_math.hpp"
+#include "portable_math.hpp"
 
 namespace thermedge::sim {
 namespace {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "thermedge/image.hpp"
-#include "thermedge/parallel.hpp"
+#include "thermedge/parallel_runner.hpp"
 
 namespace thermedge::sim {
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "thermedge/radiation.hpp"
+#include "thermedge/radiometry/planck.hpp"
 
 namespace thermedge::sim {
 

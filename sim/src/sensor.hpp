@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "thermedge/image.hpp"
-#include "thermedge/parallel.hpp"
+#include "thermedge/parallel_runner.hpp"
 #include "thermedge/sim/scene.hpp"
 
 namespace thermedge::sim {

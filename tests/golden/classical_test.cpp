@@ -1,11 +1,11 @@
 // The classical detectors against GNU Octave's `edge` on simulated frames; how the maps were made:
 // tests/data/classical/README.md.
-#include "thermedge/classical.hpp"
+#include "thermedge/stages/classical.hpp"
 
 #include <gtest/gtest.h>
 
 #include "thermedge/io/source.hpp"
-#include "thermedge/radiometry.hpp"
+#include "thermedge/radiometry/grey_scale.hpp"
 #include "thermedge/sim/scene.hpp"
 
 namespace thermedge {

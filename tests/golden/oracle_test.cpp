@@ -8,8 +8,8 @@
 #include "support/drawing.hpp"
 #include "support/images.hpp"
 #include "support/oracle.hpp"
-#include "thermedge/contours.hpp"
-#include "thermedge/corners.hpp"
+#include "thermedge/stages/contours.hpp"
+#include "thermedge/stages/corners.hpp"
 
 namespace thermedge::test {
 namespace {

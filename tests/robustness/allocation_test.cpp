@@ -6,11 +6,11 @@
 #include <new>
 
 #include "support/images.hpp"
-#include "thermedge/classical.hpp"
 #include "thermedge/detector.hpp"
-#include "thermedge/fields.hpp"
-#include "thermedge/probe.hpp"
+#include "thermedge/edge_fields.hpp"
+#include "thermedge/probe/probe.hpp"
 #include "thermedge/sim/scene.hpp"
+#include "thermedge/stages/classical.hpp"
 
 namespace {
 

@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "thermedge/contours.hpp"
 #include "thermedge/image.hpp"
+#include "thermedge/stages/contours.hpp"
 
 namespace thermedge::test {
 

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "thermedge/edges.hpp"
+#include "thermedge/edge_set.hpp"
 
 namespace thermedge::test {
 

@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "thermedge/contours.hpp"
 #include "thermedge/image.hpp"
 #include "thermedge/io/source.hpp"
+#include "thermedge/stages/contours.hpp"
 
 namespace thermedge::test {
 

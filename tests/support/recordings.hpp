@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "support/images.hpp"
-#include "thermedge/parallel.hpp"
+#include "thermedge/parallel_runner.hpp"
 #include "thermedge/sim/scene.hpp"
 
 namespace thermedge::test {

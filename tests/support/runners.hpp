@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "thermedge/parallel.hpp"
+#include "thermedge/parallel_runner.hpp"
 
 namespace thermedge::test {
 

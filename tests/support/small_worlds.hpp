@@ -5,9 +5,9 @@
 #include <utility>
 #include <vector>
 
-#include "sim/src/caster.hpp"
-#include "sim/src/imager.hpp"
-#include "sim/src/truth.hpp"
+#include "caster.hpp"
+#include "imager.hpp"
+#include "truth.hpp"
 
 namespace thermedge::test {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "thermedge/probe.hpp"
+#include "thermedge/probe/probe.hpp"
 
 namespace thermedge::io {
 

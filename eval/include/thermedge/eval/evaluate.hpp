@@ -11,7 +11,7 @@
 #include "thermedge/eval/files.hpp"
 #include "thermedge/eval/scores.hpp"
 #include "thermedge/eval/structure.hpp"
-#include "thermedge/parallel.hpp"
+#include "thermedge/parallel_runner.hpp"
 
 namespace thermedge::eval {
 

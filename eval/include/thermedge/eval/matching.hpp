@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "thermedge/contours.hpp"
 #include "thermedge/image.hpp"
+#include "thermedge/stages/contours.hpp"
 
 namespace thermedge::eval {
 

@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "thermedge/classical.hpp"
 #include "thermedge/figures/figure.hpp"
 #include "thermedge/image.hpp"
 #include "thermedge/options.hpp"
 #include "thermedge/result.hpp"
+#include "thermedge/stages/classical.hpp"
 
 namespace thermedge::figures {
 

@@ -6,7 +6,7 @@
 
 #include "thermedge/figures/figure.hpp"
 #include "thermedge/image.hpp"
-#include "thermedge/probe.hpp"
+#include "thermedge/probe/probe.hpp"
 
 namespace thermedge::figures {
 

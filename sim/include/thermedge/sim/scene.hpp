@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "thermedge/image.hpp"
-#include "thermedge/parallel.hpp"
+#include "thermedge/parallel_runner.hpp"
 #include "thermedge/result.hpp"
 #include "thermedge/sim/world.hpp"
 

@@ -1,0 +1,158 @@
+// What a recording is like: range, noise and its parts, dead pixels, clipping, freezes; and which
+// options of the detector suit it.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "thermedge/image.hpp"
+#include "thermedge/radiometry/grey_scale.hpp"
+#include "thermedge/radiometry/planck.hpp"
+#include "thermedge/result.hpp"
+#include "thermedge/stages/bad_pixels.hpp"
+
+namespace thermedge {
+
+struct ProbeOptions {
+  double degc_per_count = kDegcPerCount;  // worth of a count, degC, > 0 (paper section 2.3)
+  std::optional<CountsModel> camera;      // instead of it, where known: tells temperatures too
+  NucOptions nuc;                         // the rule for dead pixels
+};
+
+// Counts of all frames: bin i holds the pixels with edges_counts[i] <= count < edges_counts[i + 1].
+// At most 256 bins of whole counts over the 0.1st to 99.9th percentile and a margin.
+struct CountHistogram {
+  std::vector<int> edges_counts;      // bins + 1
+  std::vector<std::int64_t> pixels;   // of each bin
+  std::int64_t below = 0, above = 0;  // pixels outside the bins
+};
+
+// Spatial sigma over the picture, mean over the frames; tiles of about 32 px, row by row.
+struct NoiseMap {
+  int columns = 0, rows = 0;
+  std::vector<double> sigma_counts;
+};
+
+// One frame of the series. Of long recordings every 2nd, 4th ... frame is kept, at most 4096.
+struct ProbeSample {
+  std::int64_t frame = 0;
+  int median_counts = 0;
+  double sigma_counts = 0;
+};
+
+// Share of the pixels that Algorithm 1 would clip, mean over the frames.
+struct GainClipping {
+  double gain = 0;  // grey levels per count
+  double share = 0;
+};
+
+// One option of the detector as `--set name=value` takes it, and why it is suggested.
+struct SuggestedOption {
+  std::string name, value, reason;
+};
+
+// Values that the recording can't tell are nullopt. `share` and `gain` are parts of 1.
+//
+// Noise. All sigmas use the residual of [1 -2 1] x [1 -2 1] / 6: unit gain for white noise, blind
+// to planes, columns and rows. A tile's sigma is 1.4826 times the median of the residual over the
+// flatter half *of that tile*, the recording's the root mean square over the tiles, mean over the
+// frames. Ranking the slopes within tiles matters where noise is uneven, because noise makes
+// slopes: the flatter half of a whole frame is its quieter half, and that is what NoiseEstimator
+// gives. A road camera with 15 counts in its cold sky and 8 on the ground has 9.6 by tiles (9.4 by
+// the median over whole frames) and 8.4 by NoiseEstimator; of simulated halves with 8 and 15 counts
+// (root mean square 12.0) the tiles give 11.8 and NoiseEstimator 9.6. Where noise is even they
+// agree.
+//
+// Temporal sigma: the same of the difference of successive residuals, over sqrt 2. The residual
+// hardly sees a scene that moves smoothly, and the flatter halves and the median leave out edges
+// that move. A camera that averages over time shows less here than it has.
+//
+// Fixed pattern: two maps of mean residuals, of every other frame in which the scene had moved; the
+// noise in the two is independent, so (var(a + b) - var(a - b)) / 4 is the variance of the offsets
+// of the pixels alone. Needs 4 such frames: a camera at rest can't tell its pattern from its scene.
+// What never moves though the camera does (the vehicle's own bonnet) is taken for pattern. Medians
+// over the whole picture are no substitute for the tiles where noise is uneven: on the road they
+// give 36 % of the variance, the tiles 54 %; the latter foretells what a map of 8 frames does to
+// the other frames (28 %, tried: 24 %).
+struct RecordingReport {
+  std::int64_t frames = 0;
+  int width = 0, height = 0;  // px
+  int container_bits = 0;     // 8 or 16
+  int used_bits = 0;          // up to the highest bit that is ever set
+  int unused_low_bits = 0;    // 2: all counts are multiples of 4
+  double degc_per_count = 0;  // of a camera model: in the middle of the range
+
+  // Range, counts.
+  int min_counts = 0, max_counts = 0;        // of all frames
+  std::optional<double> min_degc, max_degc;  // the same as temperatures, of a camera model
+  double range_counts = 0;         // max - min of a frame (paper eq. 3), mean over the frames
+  double robust_range_counts = 0;  // 99th - 1st percentile of a frame, mean over the frames
+  std::optional<double> snr;       // robust_range_counts / sigma_counts
+  CountHistogram histogram;
+
+  // Noise, counts.
+  double sigma_counts = 0;                           // spatial: temporal and fixed together
+  double frame_sigma_counts = 0;                     // what NoiseEstimator measures on each frame
+  std::optional<double> temporal_sigma_counts;       // needs two different frames
+  std::optional<double> fixed_pattern_sigma_counts;  // offsets of the pixels
+  std::optional<double> fixed_pattern_share;         // of the spatial variance
+  // By how much an offset map would lower sigma: learned from 8 frames,
+  // 1 - sqrt((1 - share) (1 + 1 / 8)), and from any number, 1 - sqrt(1 - share).
+  std::optional<double> offset_map_gain_8_frames, offset_map_gain_limit;
+  NoiseMap noise_map;
+
+  // Stripes, counts: as NoiseEstimator measures them, and the offset of each column (row) against
+  // its up to 8 nearest, median along it, mean over the frames.
+  double column_sigma_counts = 0, row_sigma_counts = 0;
+  std::vector<double> column_profile_counts, row_profile_counts;
+
+  // Dead pixels: flagged in at least half of 3 or more different frames; and others, per frame.
+  std::optional<std::int64_t> dead_pixels;
+  double passing_dead_pixels = 0;
+
+  std::vector<GainClipping> clipping;  // by falling gain
+
+  // Sequence.
+  std::int64_t repeated_frames = 0;  // bit-identical to the one before
+  std::int64_t longest_freeze = 0;   // repeated frames in a row
+  std::int64_t offset_jumps = 0;     // after 2 or more repeats, by more than sigma: a shutter (FFC)
+  double largest_jump_counts = 0;    // median over the pixels of the difference
+  std::int64_t scene_moved = 0;      // frames in which the scene had moved since the last such one
+  std::optional<double> flicker_counts;  // |change of the median| from frame to frame, mean
+  std::vector<ProbeSample> series;
+
+  std::vector<SuggestedOption> suggested;  // where the defaults don't suit
+
+  // Share clipped at a gain of `clipping`; 0 for other gains.
+  [[nodiscard]] double clipped_share(double gain) const;
+};
+
+// Looks at a recording frame by frame. Memory: a few pictures, whatever the number of frames.
+// After the second frame add() allocates nothing. Not thread-safe: one probe per thread.
+// The same frames give the same report everywhere. Cost: about 10 ms a frame of 382x288.
+class RecordingProbe {
+ public:
+  explicit RecordingProbe(const ProbeOptions& options = {});
+  RecordingProbe(RecordingProbe&&) noexcept;
+  RecordingProbe& operator=(RecordingProbe&&) noexcept;
+  ~RecordingProbe();
+
+  // `bits`: 8 or 16, of a pixel in the file. Errors, after which the recording goes on without the
+  // frame: empty frame, another size or number of bits than the first, out of memory.
+  [[nodiscard]] Status add(ImageView<const std::uint16_t> frame, int bits = 16);
+
+  // Of the frames so far; more may follow.
+  [[nodiscard]] RecordingReport report() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+// The options that suit a recording, in the order of the detector's list; fills `suggested`.
+[[nodiscard]] std::vector<SuggestedOption> suggest_options(const RecordingReport& report);
+
+}  // namespace thermedge

@@ -1,0 +1,92 @@
+// Carries curves on over gaps.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "thermedge/image.hpp"
+#include "thermedge/result.hpp"
+#include "thermedge/stages/contour_chains.hpp"
+#include "thermedge/stages/contours.hpp"
+#include "thermedge/stages/linking.hpp"
+
+namespace thermedge {
+
+struct BridgingOptions {
+  double gap_px = 10;           // longest bridge, 0..32 px; 0: none
+  double max_turn_deg = 45;     // sharpest turn into a bridge and out of it, 0..90
+  double least_contrast = 0.1;  // contrast across a bridge, of that across the curve's end, 0..1
+};
+
+// Where an edge meets a stronger one, the ridge of its gradient ends some pixels before, and a weak
+// stretch makes a gap. From each free end, the shortest, straightest bridge to another curve, to an
+// end or to the frame's border is taken, if the step that the edge has goes on across it. Bridges
+// are taken by their length, with an addition for their turn, each end once. Two ends that meet
+// become one curve, straight on or by way of the corner that both head for, but not by a kink; ends
+// that meet a curve become a link of type 2.
+// One object per thread; allocates on the first frame of a size only.
+class Bridger {
+ public:
+  explicit Bridger(const BridgingOptions& options) : options_(options) {}
+
+  // `frame`: what the edges were found on. `worthy`, one for each curve: 0 where it is not worth a
+  // bridge. `bridged` is cleared first; links of type 2 go over into it.
+  // Errors: an option out of range.
+  [[nodiscard]] Status run(const LinkedContours& curves, ImageView<const float> frame,
+                           std::span<const std::uint8_t> worthy, LinkedContours& bridged);
+
+ private:
+  struct Vector {
+    double x, y;
+  };
+  // What lies at a free end.
+  struct Tip {
+    Pixel at;
+    Vector ahead;     // unit vector
+    double contrast;  // ahead's right side over its left, of the last pixels
+  };
+  struct Bridge {
+    double cost;
+    std::int32_t end;
+    Pixel to;
+    std::int32_t partner;         // end that it meets, -1: none
+    std::optional<Pixel> corner;  // by way of which it does
+  };
+
+  // From an end to where it may be bridged to.
+  struct Offset {
+    Pixel step;
+    std::ptrdiff_t place;  // in owner_, from the end
+    double length;
+  };
+
+  void prepare(const LinkedContours& curves, ImageView<const float> frame, LinkedContours& bridged);
+  void paint(const LinkedContours& curves, std::span<const std::uint8_t> worthy);
+  [[nodiscard]] bool touches_another(std::int32_t end, Pixel at) const;
+  [[nodiscard]] Tip tip_of(const ContourSet& contours, std::int32_t end,
+                           ImageView<const float> frame) const;
+  [[nodiscard]] static Vector direction(Pixel from, Pixel to);
+  [[nodiscard]] std::optional<Bridge> find_target(const Tip& tip, std::int32_t end,
+                                                  double least_cosine) const;
+  [[nodiscard]] double distance_to_border(const Tip& tip) const;
+  void meet_end(const ContourSet& contours, ImageView<const float> frame, const Tip& tip,
+                double least_cosine, Bridge& bridge) const;
+  [[nodiscard]] std::optional<Pixel> corner_of(const Tip& a, const Tip& b) const;
+  [[nodiscard]] bool step_goes_on(const Tip& tip, Pixel to, ImageView<const float> frame) const;
+  [[nodiscard]] std::optional<Bridge> find_bridge(const ContourSet& contours, std::int32_t end,
+                                                  ImageView<const float> frame) const;
+  [[nodiscard]] bool is_own(std::int32_t end, Pixel at) const;
+  void join(const ContourSet& contours, LinkedContours& bridged);
+
+  BridgingOptions options_;
+  detail::CurveChains chains_;
+  std::vector<Pixel> window_;    // offsets within gap_px, nearest first
+  std::vector<Offset> offsets_;  // the same
+  std::vector<Bridge> bridges_;
+  Image<std::int32_t> owner_;  // curve of each pixel, -1: none
+  Image<std::int32_t> place_;  // of the pixel within its curve
+};
+
+}  // namespace thermedge

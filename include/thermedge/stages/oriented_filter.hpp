@@ -1,0 +1,73 @@
+// Edge pixels by short oriented kernels, in units of the noise.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "thermedge/image.hpp"
+#include "thermedge/parallel_runner.hpp"
+#include "thermedge/result.hpp"
+
+namespace thermedge {
+
+struct OrientedOptions {
+  double across_px = 1.2;        // standard deviation of the kernels across the edge, 0.5..2,
+  double along_px = 2.5;         // and along it, from across_px to 4, in strong noise;
+  double clean_across_px = 0.8;  // and the same in next to none
+  double clean_along_px = 1.0;
+  double low = 0.1;           // hysteresis, in units of the noise before denoising, > 0
+  double high = 0.2;          // from `low` up
+  double noise_floor = 0.08;  // least noise assumed, of the frame's range (p99.9 - p0.1), 0..0.1
+  double fine_px = 0.8;       // standard deviation of the fine derivative, 0.5..2; 0: none
+  double fine_above = 1;      // the response of the fine one from which it decides, > 0
+};
+
+// Standard deviations.
+struct KernelSize {
+  double across_px;
+  double along_px;
+};
+
+// Of one frame; the views live in the object that made them, until its next run.
+struct OrientedResult {
+  ImageView<const float> strength;          // largest response of all orientations, in sigma
+  ImageView<const std::int32_t> direction;  // whose, 0..23: the edge runs at direction * 15
+                                            // degrees from the x axis towards the y axis, and the
+                                            // warmer side lies 90 degrees further on
+  ImageView<const float> prominence;        // of edge pixels: strength over that of what lies
+                                            // 4 px to both sides; slopes have next to none
+  ImageView<const std::uint8_t> edges;      // 255 edge, 0 none
+  KernelSize kernel;                        // that found them
+};
+
+// Derivatives of a Gaussian that is longer than it is wide, at 12 orientations (what runs along an
+// edge tells as much of it as what lies across, and noise less), scaled so that white noise of 1
+// sigma gives responses of 1 sigma. The strength of a pixel is that of its best orientation. An
+// edge pixel is not weaker than the strength interpolated one pixel to both sides across the edge.
+// Hysteresis with 8-connectivity.
+// The kernels blur. Edges that a fine, round derivative of a Gaussian sees too, in groups of some
+// pixels, lie where that one has them: sharp corners, lines side by side. Both of Canny's design.
+// Border pixels are no edges; beyond the border the frame is mirrored.
+// Bit-identical for every Runner and SIMD target. One object per thread; allocates on the first
+// frame of a size only.
+class OrientedEdges {
+ public:
+  explicit OrientedEdges(const OrientedOptions& options);
+  OrientedEdges(OrientedEdges&&) noexcept;
+  OrientedEdges& operator=(OrientedEdges&&) noexcept;
+  ~OrientedEdges();
+
+  // `in`: counts, denoised or not; `sigma_counts` > 0: the noise before denoising; `noisiness`: how
+  // much of a burden it is, 0 (the short clean kernels) to 1 (the long ones). From a half up, the
+  // sides that an edge has to be over may lie 8 px away too: denoisers blur faint edges.
+  // Errors: empty frame; sigma not positive or not finite; noisiness out of range; an option out of
+  // range; a pixel that is NaN, infinite or beyond 1e18.
+  [[nodiscard]] Result<OrientedResult> run(ImageView<const float> in, double sigma_counts,
+                                           double noisiness, Runner& runner);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace thermedge

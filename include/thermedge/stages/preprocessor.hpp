@@ -1,0 +1,36 @@
+// What is done to a frame before anything looks for edges in it.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "thermedge/image.hpp"
+#include "thermedge/parallel_runner.hpp"
+#include "thermedge/stages/bad_pixels.hpp"
+#include "thermedge/stages/stripes.hpp"
+
+namespace thermedge {
+
+// Replaces dead pixels, then removes stripes, as the options say. One object per thread; allocates
+// on the first frame of a size only.
+class FrameCorrector {
+ public:
+  explicit FrameCorrector(const NucOptions& options) : options_(options) {}
+
+  // The corrected frame, valid until the next run. `sigma_counts` as NoiseEstimator measured it.
+  ImageView<const std::uint16_t> run(ImageView<const std::uint16_t> frame, double sigma_counts,
+                                     Runner& runner);
+
+  // Of the last frame; without stripes, or where they are left alone, the offsets are empty.
+  [[nodiscard]] const std::vector<DeadPixel>& dead_pixels() const { return dead_pixels_; }
+  [[nodiscard]] const StripeOffsets& stripes() const { return stripes_; }
+
+ private:
+  NucOptions options_;
+  StripeFinder finder_;
+  Image<std::uint16_t> corrected_;
+  std::vector<DeadPixel> dead_pixels_;
+  StripeOffsets stripes_;
+};
+
+}  // namespace thermedge

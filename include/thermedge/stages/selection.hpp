@@ -1,0 +1,45 @@
+// Which edges are kept.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "thermedge/edge_set.hpp"
+#include "thermedge/image.hpp"
+#include "thermedge/result.hpp"
+
+namespace thermedge {
+
+struct SelectionOptions {
+  int keep_edges = 100;         // ET: the best so many edges are kept; 0: all (text: no value)
+  int max_edgels = 0;           // most edgels in the kept edges together; 0: any number
+  double min_score = -1e9;      // edges with a lower score are too weak; not for ES, which falls
+  double max_false_alarms = 0;  // edges with a larger number of false alarms go; 0: no such test
+};
+
+// Gives each edge its verdict: too weak, not significant, beyond a budget (the kept edges are the
+// longest row of best ones within both) or kept. Those that passed the tests come first, each part
+// in the order of its rank before; ids, ranks, connections and the edges of edgels follow.
+// Paper: Algorithm 6 (ET). One object per thread; allocates on the first frame of a size only.
+class EdgeSelector {
+ public:
+  explicit EdgeSelector(const SelectionOptions& options) : options_(options) {}
+
+  // Errors: an option out of range.
+  [[nodiscard]] Status run(EdgeSet& edges);
+
+  // Leaves the junctions at which two kept edges meet (within 2 px); behind run. `width`, `height`:
+  // of the frame.
+  void keep_junctions(int width, int height, EdgeSet& edges);
+
+ private:
+  [[nodiscard]] EdgeVerdict judge(const Edge& edge) const;
+  void reorder(EdgeSet& edges);
+  void keep_best(EdgeSet& edges) const;
+
+  SelectionOptions options_;
+  std::vector<std::int32_t> rank_of_;  // of each edge, by its rank before
+  Image<std::int32_t> owner_;          // kept edge of each pixel, -1: none
+};
+
+}  // namespace thermedge

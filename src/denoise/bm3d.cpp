@@ -1,0 +1,209 @@
+#include "bm3d.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "bm3d_sums_simd.hpp"
+#include "portable_math.hpp"
+
+namespace thermedge::detail {
+namespace {
+
+constexpr int kBandPx = 48;
+constexpr int kRowsPerTask = 16;
+// Zeros left of the weights of a row and above those of a column, so that spreading them need not
+// ask where the frame begins.
+constexpr int kWeightMargin = kBlockPx;
+
+template <class Process>
+void for_each_row(int rows, Runner& runner, const Process& process) {
+  runner.run((rows + kRowsPerTask - 1) / kRowsPerTask, [&](int task) {
+    const int end = std::min((task + 1) * kRowsPerTask, rows);
+    for (int y = task * kRowsPerTask; y < end; ++y) {
+      process(y);
+    }
+  });
+}
+
+// A block, then as many steps as cover the side; whole cells.
+int continued(int side, int step) {
+  const int unit = std::max(step, kCellPx);
+  return kBlockPx + (std::max(side - kBlockPx, 0) + unit - 1) / unit * unit;
+}
+
+}  // namespace
+
+Bm3dSettings bm3d_settings(const Bm3dOptions& options) {
+  Bm3dSettings settings;
+  settings.options = options;
+  switch (options.profile) {
+    case Bm3dProfile::kQuality:
+      settings.step_px = 2;
+      settings.search_radius_px = 20;
+      break;
+    case Bm3dProfile::kBalanced:
+      settings.wiener.staggered = true;
+      break;
+    case Bm3dProfile::kFast:
+      settings.hard.staggered = true;
+      settings.wiener.staggered = true;
+      break;
+  }
+  return settings;
+}
+
+Bm3d::Bm3d(const Bm3dSettings& settings)
+    : settings_(settings), pattern_(settings.search_radius_px) {
+  const double beta = settings.options.kaiser_beta;
+  const double beta_squared = beta * beta;
+  for (int i = 0; i < kBlockPx; ++i) {
+    const double position = 2.0 * i / (kBlockPx - 1) - 1;
+    profile_[i] = static_cast<float>(bessel_i0_of_square(beta_squared * (1 - position * position)) /
+                                     bessel_i0_of_square(beta_squared));
+  }
+  for (int i = 0; i < kBlockPx * kBlockPx; ++i) {
+    window_[i] = profile_[i / kBlockPx] * profile_[i % kBlockPx];
+  }
+}
+
+Bm3d::Band Bm3d::band(int index) const {
+  const int radius = settings_.search_radius_px;
+  Band band;
+  band.first_y = index * kBandPx;
+  band.end_y = std::min(band.first_y + kBandPx, height_ - kBlockPx + 1);
+  band.first_row = std::max(band.first_y - radius, 0);
+  band.end_row = std::min(band.end_y - 1 + radius + kBlockPx, height_);
+  return band;
+}
+
+void Bm3d::prepare(int width, int height) {
+  width_ = continued(width, settings_.step_px);
+  height_ = continued(height, settings_.step_px);
+  noisy_.resize(MatchGuide::readable_width(width_), height_);
+  estimate_.resize(MatchGuide::readable_width(width_), height_);
+  guide_.resize(width_, height_, settings_.search_radius_px);
+  sums_.resize(width_, height_);
+  corner_weights_.resize(kWeightMargin + width_, height_);
+  weights_.resize(width_, kWeightMargin + height_);
+  fill_pixels(weights_.view().crop(0, 0, width_, kWeightMargin), 0.0F);
+  make_columns();
+  bands_.resize(static_cast<std::size_t>((height_ - kBlockPx) / kBandPx + 1));
+  for (std::size_t i = 0; i < bands_.size(); ++i) {
+    const Band rows = band(static_cast<int>(i));
+    bands_[i].sums.resize(width_, rows.end_row - rows.first_row);
+    bands_[i].weights.resize(kWeightMargin + width_, rows.end_row - rows.first_row);
+    bands_[i].match.prepare(pattern_, (width_ - kBlockPx) / kCellPx + 1);
+    bands_[i].groups.resize(all_columns_.size());
+  }
+}
+
+void Bm3d::load(ImageView<const float> in, const NoiseUnits& units, Runner& runner) {
+  for_each_row(height_, runner, [&](int y) {
+    mirrored_row(in, units, y, 0, width_, noisy_.row(y));
+    guide_.set_row(noisy_.row(y), y);
+  });
+}
+
+// Columns of cells; the last one always has a block, so that the blocks cover the frame.
+void Bm3d::make_columns() {
+  const int last = (width_ - kBlockPx) / kCellPx;
+  const auto fill = [&](std::vector<int>& columns, int first, int every) {
+    columns.clear();
+    for (int column = first; column < last; column += every) {
+      columns.push_back(column);
+    }
+    columns.push_back(last);
+  };
+  fill(all_columns_, 0, std::max(settings_.step_px / kCellPx, 1));
+  fill(even_columns_, 0, 2);
+  fill(odd_columns_, 1, 2);
+}
+
+// Of a staggered stage every other row is shifted; but for the last, which ends what it covers.
+std::span<const int> Bm3d::columns_of(const StageSettings& stage, int y) const {
+  const bool is_even = y / kCellPx % 2 == 0 || y == height_ - kBlockPx;
+  return !stage.staggered ? all_columns_ : is_even ? even_columns_ : odd_columns_;
+}
+
+void Bm3d::filter_row(Stage stage, int y, BandScratch& scratch, const Accumulator& sums) const {
+  const bool is_hard = stage == Stage::kHard;
+  const StageSettings& settings = is_hard ? settings_.hard : settings_.wiener;
+  // Blocks between whole cells are rows of their own.
+  for (int x = 0; x < kCellPx; x += settings_.step_px) {
+    ReferenceRow row{x, y, columns_of(settings, y)};
+    if (x > 0) {
+      row.columns = row.columns.first(row.columns.size() - 1);  // they begin behind the last cell
+    }
+    if (row.columns.empty()) {
+      continue;
+    }
+    match_row(guide_, pattern_, row, settings.largest_group, scratch.match, scratch.groups);
+    for (const BlockGroup& group : std::span(scratch.groups).first(row.columns.size())) {
+      if (is_hard) {
+        filter_hard(noisy_.view(), group.view(), static_cast<float>(settings_.options.lambda),
+                    window_, sums);
+      } else {
+        filter_wiener(noisy_.view(), estimate_.view(), group.view(), window_, sums);
+      }
+    }
+  }
+}
+
+void Bm3d::filter_band(Stage stage, int index) {
+  const Band rows = band(index);
+  BandScratch& scratch = bands_[static_cast<std::size_t>(index)];
+  fill_pixels(scratch.sums.view(), 0.0F);
+  fill_pixels(scratch.weights.view(), 0.0F);
+  scratch.match.pairs_cells = 0;
+  const Accumulator sums = {
+      scratch.sums, scratch.weights.view().crop(kWeightMargin, 0, width_, scratch.weights.height()),
+      rows.first_row};
+  for (int y = rows.first_y; y < rows.end_y; y += settings_.step_px) {
+    filter_row(stage, y, scratch, sums);
+  }
+}
+
+void Bm3d::merge_row(int y) {
+  std::fill_n(sums_.row(y), width_, 0.0F);
+  std::fill_n(corner_weights_.row(y), corner_weights_.width(), 0.0F);
+  for (std::size_t i = 0; i < bands_.size(); ++i) {
+    const Band rows = band(static_cast<int>(i));
+    if (y >= rows.first_row && y < rows.end_row) {
+      add_row(bands_[i].sums.row(y - rows.first_row), width_, sums_.row(y));
+      add_row(bands_[i].weights.row(y - rows.first_row), corner_weights_.width(),
+              corner_weights_.row(y));
+    }
+  }
+  spread_row(profile_, corner_weights_.row(y) + kWeightMargin, 1, width_,
+             weights_.row(kWeightMargin + y));
+}
+
+void Bm3d::finish_row(int y) {
+  spread_row(profile_, weights_.row(kWeightMargin + y), weights_.stride(), width_,
+             estimate_.row(y));
+  divide_row(sums_.row(y), width_, estimate_.row(y));
+}
+
+void Bm3d::run_stage(Stage stage, Runner& runner) {
+  runner.run(static_cast<int>(bands_.size()), [&](int index) { filter_band(stage, index); });
+  for_each_row(height_, runner, [&](int y) { merge_row(y); });
+  for_each_row(height_, runner, [&](int y) { finish_row(y); });
+}
+
+void Bm3d::run(ImageView<const float> in, const NoiseUnits& units, ImageView<float> out,
+               Runner& runner) {
+  prepare(in.width(), in.height());
+  load(in, units, runner);
+  run_stage(Stage::kHard, runner);
+  if (settings_.options.wiener) {
+    for_each_row(height_, runner, [&](int y) { guide_.set_row(estimate_.row(y), y); });
+    run_stage(Stage::kWiener, runner);
+  }
+  for_each_row(out.height(), runner, [&](int y) {
+    std::transform(estimate_.row(y), estimate_.row(y) + out.width(), out.row(y),
+                   [&](float value) { return units.to_counts(value); });
+  });
+}
+
+}  // namespace thermedge::detail

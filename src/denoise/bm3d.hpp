@@ -1,0 +1,89 @@
+// BM3D (Dabov et al. 2007; parameters as in Lebrun, IPOL 2012).
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "bm3d_group_simd.hpp"
+#include "bm3d_match_simd.hpp"
+#include "float_frame.hpp"
+#include "thermedge/stages/denoiser.hpp"
+
+namespace thermedge::detail {
+
+struct StageSettings {
+  int largest_group = 16;  // blocks: 1, 2, 4, 8, 16 or 32
+  // Every other reference block, like the black squares of a chessboard; for steps of 4 px only.
+  bool staggered = false;
+};
+
+// What a profile stands for.
+struct Bm3dSettings {
+  Bm3dOptions options;
+  int step_px = 4;            // distance of reference blocks: 1, 2, 4 or 8
+  int search_radius_px = 16;  // largest displacement of matched blocks, 4..kLargestSearchRadius
+  StageSettings hard;
+  StageSettings wiener;
+};
+[[nodiscard]] Bm3dSettings bm3d_settings(const Bm3dOptions& options);
+
+// Both stages do the same: match blocks on a guide (the frame itself, then the first estimate),
+// filter each group, add the blocks up. Reference blocks are cut into bands of rows; each band has
+// its own sums, which are merged in band order. The frame is continued to the right and down by
+// mirroring until the reference blocks cover it.
+class Bm3d {
+ public:
+  explicit Bm3d(const Bm3dSettings& settings);
+
+  // Makes the scratch memory for frames of this size, which run() would make otherwise.
+  void prepare(int width, int height);
+
+  // `out` may be `in`.
+  void run(ImageView<const float> in, const NoiseUnits& units, ImageView<float> out,
+           Runner& runner);
+
+ private:
+  enum class Stage { kHard, kWiener };
+  struct Band {
+    int first_y = 0;  // rows of the reference blocks
+    int end_y = 0;
+    int first_row = 0;  // rows of the frame that the blocks of their groups may touch
+    int end_row = 0;
+  };
+  struct BandScratch {
+    Image<float> sums;
+    Image<float> weights;
+    MatchScratch match;
+    std::vector<BlockGroup> groups;  // of a row
+  };
+
+  [[nodiscard]] Band band(int index) const;
+  [[nodiscard]] std::span<const int> columns_of(const StageSettings& stage, int y) const;
+  void make_columns();
+  void load(ImageView<const float> in, const NoiseUnits& units, Runner& runner);
+  void run_stage(Stage stage, Runner& runner);
+  void filter_band(Stage stage, int index);
+  void filter_row(Stage stage, int y, BandScratch& scratch, const Accumulator& sums) const;
+  void merge_row(int y);
+  void finish_row(int y);
+
+  Bm3dSettings settings_;
+  SearchPattern pattern_;
+  float profile_[kBlockPx];  // Kaiser window
+  BlockWindow window_;       // its product with itself
+
+  int width_ = 0;  // of the continued frame
+  int height_ = 0;
+  std::vector<int> all_columns_;   // where reference blocks stand, in cells
+  std::vector<int> even_columns_;  // and those of staggered rows
+  std::vector<int> odd_columns_;
+  Image<float> noisy_;     // in units of the noise
+  Image<float> estimate_;  // of the stage before
+  MatchGuide guide_;
+  std::vector<BandScratch> bands_;
+  Image<float> sums_;            // merged
+  Image<float> corner_weights_;  // merged; columns begin left of the frame
+  Image<float> weights_;         // spread by profile_ along the rows; rows begin above the frame
+};
+
+}  // namespace thermedge::detail

@@ -1,0 +1,33 @@
+// The smooth background of a frame, taken off while it is denoised.
+#pragma once
+
+#include <vector>
+
+#include "robust_line_fit.hpp"
+#include "thermedge/image.hpp"
+
+namespace thermedge::detail {
+
+// A parabola along the columns and one along the rows: what a lens darker towards its corners adds,
+// or a wall that grows warmer evenly. Fitted to the differences between the means of neighbouring
+// blocks of 8x8 pixels, robustly, so that objects do not matter. Denoisers that shrink small
+// contrasts make terraces of such a slope, whose edges look real.
+class Shading {
+ public:
+  void prepare(int width, int height);
+  void measure(ImageView<const float> frame);
+  // `out` may be `in`.
+  void take_off(ImageView<const float> in, ImageView<float> out) const;
+  void put_back(ImageView<float> frame) const;
+
+ private:
+  void fill(const Line& slope, std::vector<float>& profile);
+  void apply(ImageView<const float> in, float sign, ImageView<float> out) const;
+
+  Image<double> blocks_;  // means
+  std::vector<WeightedPoint> slopes_;
+  std::vector<double> distances_;
+  std::vector<float> columns_, rows_;
+};
+
+}  // namespace thermedge::detail

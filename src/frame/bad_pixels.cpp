@@ -1,0 +1,126 @@
+#include "thermedge/stages/bad_pixels.hpp"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include "outliers_simd.hpp"
+
+namespace thermedge {
+namespace {
+
+using Frame = ImageView<const std::uint16_t>;
+
+constexpr int kSmallestSide = 5;
+constexpr int kOpticsRatio = 2;  // of how far a real point stands out, see the header
+
+// Some of the pixels of a 5x5 neighbourhood, in ascending order.
+class Values {
+ public:
+  void add(int value) { values_[count_++] = value; }
+  void sort() { std::sort(values_.begin(), values_.begin() + count_); }
+  [[nodiscard]] bool empty() const { return count_ == 0; }
+  [[nodiscard]] std::size_t size() const { return count_; }
+  [[nodiscard]] int smallest() const { return values_[0]; }
+  [[nodiscard]] int largest() const { return values_[count_ - 1]; }
+  [[nodiscard]] int second_smallest() const { return values_[1]; }
+  [[nodiscard]] int second_largest() const { return values_[count_ - 2]; }
+  [[nodiscard]] int median() const { return (values_[(count_ - 1) / 2] + values_[count_ / 2]) / 2; }
+
+ private:
+  std::array<int, 25> values_{};
+  std::size_t count_ = 0;
+};
+
+// The pixels within the frame that lie `radius` columns or rows away from (x, y) and fulfil
+// `is_good(x, y)`.
+template <class F>
+Values ring(Frame frame, int x, int y, int radius, F&& is_good) {
+  Values values;
+  for (int j = y - radius; j <= y + radius; ++j) {
+    const bool whole_row = std::abs(j - y) == radius;
+    for (int i = x - radius; i <= x + radius; i += whole_row ? 1 : 2 * radius) {
+      if (frame.contains(i, j) && is_good(i, j)) {
+        values.add(frame(i, j));
+      }
+    }
+  }
+  values.sort();
+  return values;
+}
+
+Values ring(Frame frame, int x, int y, int radius) {
+  return ring(frame, x, y, radius, [](int, int) { return true; });
+}
+
+// The rule for dead pixels in full; slow, so only the pixels that pass the noise test get here.
+bool is_dead(Frame frame, int x, int y, int limit) {
+  const Values neighbours = ring(frame, x, y, 1);
+  const int above = frame(x, y) - neighbours.second_largest();
+  const int below = neighbours.second_smallest() - frame(x, y);
+  if (std::max(above, below) <= limit) {
+    return false;  // whatever the surroundings are like
+  }
+  const Values surroundings = ring(frame, x, y, 2);
+  // On the border, where one side is hidden, the flank of a point can look like a dead pixel beside
+  // a hollow; the surroundings show that there is something.
+  const bool all_seen = neighbours.size() == 8;
+  const int contrast = all_seen ? 0 : surroundings.largest() - surroundings.smallest();
+  const int hill = std::max(neighbours.second_largest() - surroundings.median(), contrast);
+  const int hollow = std::max(surroundings.median() - neighbours.second_smallest(), contrast);
+  return above > limit + kOpticsRatio * hill || below > limit + kOpticsRatio * hollow;
+}
+
+int limit_counts(double sigma_counts, const NucOptions& options) {
+  const double limit = std::max(sigma_counts, 1.0) * options.dead_pixel_sigmas;
+  constexpr double kLargest = std::numeric_limits<std::uint16_t>::max();
+  return static_cast<int>(std::clamp(limit, 0.0, kLargest));
+}
+
+// Collects candidates, all pixels of the border among them, then drops those that are none.
+void find_dead_pixels(Frame frame, int limit, std::vector<DeadPixel>& dead) {
+  const int width = frame.width();
+  const int height = frame.height();
+  for (int y = 0; y < height; ++y) {
+    if (y == 0 || y == height - 1) {
+      for (int x = 0; x < width; ++x) {
+        dead.push_back({x, y});
+      }
+      continue;
+    }
+    dead.push_back({0, y});
+    detail::append_outliers({frame.row(y - 1), frame.row(y), frame.row(y + 1)}, width, y, limit,
+                            dead);
+    dead.push_back({width - 1, y});
+  }
+  std::erase_if(dead, [&](DeadPixel pixel) { return !is_dead(frame, pixel.x, pixel.y, limit); });
+}
+
+bool contains(const std::vector<DeadPixel>& dead, int x, int y) {
+  return std::binary_search(
+      dead.begin(), dead.end(), DeadPixel{x, y},
+      [](const DeadPixel& a, const DeadPixel& b) { return a.y != b.y ? a.y < b.y : a.x < b.x; });
+}
+
+}  // namespace
+
+void correct_dead_pixels(ImageView<std::uint16_t> frame, double sigma_counts,
+                         const NucOptions& options, std::vector<DeadPixel>& dead) {
+  dead.clear();
+  if (std::min(frame.width(), frame.height()) < kSmallestSide) {
+    return;
+  }
+  find_dead_pixels(frame, limit_counts(sigma_counts, options), dead);
+  const auto is_good = [&](int x, int y) { return !contains(dead, x, y); };
+  for (const DeadPixel& pixel : dead) {
+    Values values = ring(frame, pixel.x, pixel.y, 1, is_good);
+    if (values.empty()) {
+      values = ring(frame, pixel.x, pixel.y, 2, is_good);
+    }
+    if (!values.empty()) {
+      frame(pixel.x, pixel.y) = static_cast<std::uint16_t>(values.median());
+    }
+  }
+}
+
+}  // namespace thermedge

@@ -1,0 +1,22 @@
+#include "thermedge/stages/preprocessor.hpp"
+
+namespace thermedge {
+
+ImageView<const std::uint16_t> FrameCorrector::run(ImageView<const std::uint16_t> frame,
+                                                   double sigma_counts, Runner& runner) {
+  corrected_.resize(frame.width(), frame.height());
+  copy_pixels(frame, corrected_.view());
+  dead_pixels_.clear();
+  stripes_.columns.clear();
+  stripes_.rows.clear();
+  if (options_.dead_pixels) {
+    correct_dead_pixels(corrected_, sigma_counts, options_, dead_pixels_);
+  }
+  if (options_.stripes) {
+    finder_.measure(corrected_, sigma_counts, runner, stripes_);
+    remove_stripes(stripes_, corrected_);
+  }
+  return corrected_;
+}
+
+}  // namespace thermedge

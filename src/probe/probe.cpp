@@ -1,0 +1,336 @@
+#include "thermedge/probe/probe.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <new>
+
+#include "probe_counts.hpp"
+#include "probe_motion.hpp"
+#include "probe_noise.hpp"
+#include "probe_stripes.hpp"
+#include "thermedge/stages/noise.hpp"
+
+namespace thermedge {
+namespace {
+
+using detail::Mean;
+
+// Algorithm 1's default among round steps to both sides of it.
+constexpr std::array kGains = {10.0, 5.0, 2.0, 1.0, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01, 0.005};
+
+constexpr std::size_t kMostSamples = 4096;
+constexpr std::int64_t kShutterRepeats = 2;
+constexpr std::int64_t kLeastFramesForDeadPixels = 3;
+
+bool same_counts(ImageView<const std::uint16_t> a, ImageView<const std::uint16_t> b) {
+  for (int y = 0; y < a.height(); ++y) {
+    if (!std::equal(a.row(y), a.row(y) + a.width(), b.row(y))) {
+      return false;
+    }
+  }
+  return true;
+}
+
+// Median over the pixels of b - a.
+double median_change(ImageView<const std::uint16_t> a, ImageView<const std::uint16_t> b,
+                     std::vector<int>& changes) {
+  changes.clear();
+  for (int y = 0; y < a.height(); ++y) {
+    for (int x = 0; x < a.width(); ++x) {
+      changes.push_back(b(x, y) - a(x, y));
+    }
+  }
+  const auto middle = changes.begin() + static_cast<std::ptrdiff_t>((changes.size() - 1) / 2);
+  std::nth_element(changes.begin(), middle, changes.end());
+  return *middle;
+}
+
+// Keeps every n-th sample, n doubled whenever there are too many.
+class Series {
+ public:
+  Series() { samples_.reserve(kMostSamples); }
+  void add(const ProbeSample& sample) {
+    if (sample.frame % step_ != 0) {
+      return;
+    }
+    if (samples_.size() == kMostSamples) {
+      step_ *= 2;
+      std::erase_if(samples_, [&](const ProbeSample& kept) { return kept.frame % step_ != 0; });
+    }
+    if (sample.frame % step_ == 0) {
+      samples_.push_back(sample);
+    }
+  }
+  [[nodiscard]] const std::vector<ProbeSample>& samples() const { return samples_; }
+
+ private:
+  std::vector<ProbeSample> samples_;
+  std::int64_t step_ = 1;
+};
+
+std::string size_text(int width, int height) {
+  return std::to_string(width) + "x" + std::to_string(height);
+}
+
+}  // namespace
+
+struct RecordingProbe::Impl {
+  ProbeOptions options;
+  RecordingReport report;  // what is counted up; the rest is filled in by finish()
+  std::uint16_t bits_set = 0;
+  std::int64_t freeze = 0;  // repeats since the last new frame
+  int last_median = 0;
+
+  detail::SortedCounts sorted;
+  detail::CountTotals totals;
+  detail::TiledNoise noise;
+  detail::MotionGate gate;
+  detail::StripeProfiles stripes;
+  NoiseEstimator estimator;
+  Series series;
+  Mean range, robust_range, frame_sigma, column_sigma, row_sigma, flicker;
+  std::array<Mean, kGains.size()> clipped;
+
+  Image<std::uint16_t> previous, working;
+  std::vector<int> changes;
+  std::vector<DeadPixel> dead;
+  Image<std::uint32_t> dead_frames;  // in how many frames each pixel was flagged
+  std::int64_t flags = 0;
+  std::int64_t new_frames = 0;  // frames that repeat none
+
+  Status check(ImageView<const std::uint16_t> frame, int bits);
+  void reserve(ImageView<const std::uint16_t> frame);
+  void add(ImageView<const std::uint16_t> frame);
+  void add_counts(ImageView<const std::uint16_t> frame);
+  void add_new_frame(ImageView<const std::uint16_t> frame, double sigma_counts);
+  void add_dead_pixels(ImageView<const std::uint16_t> frame, double sigma_counts);
+  void end_freeze(ImageView<const std::uint16_t> frame, double sigma_counts);
+  [[nodiscard]] RecordingReport finish() const;
+  void finish_noise(RecordingReport& result) const;
+  void finish_dead_pixels(RecordingReport& result) const;
+};
+
+Status RecordingProbe::Impl::check(ImageView<const std::uint16_t> frame, int bits) {
+  if (frame.empty()) {
+    return failure(ErrorCode::kInvalidArgument, "frame without pixels");
+  }
+  if (bits != 8 && bits != 16) {
+    return failure(ErrorCode::kInvalidArgument,
+                   "frame of " + std::to_string(bits) + " bits; should be 8 or 16");
+  }
+  if (report.frames == 0) {
+    report.width = frame.width();
+    report.height = frame.height();
+    report.container_bits = bits;
+  }
+  if (frame.width() != report.width || frame.height() != report.height) {
+    return failure(ErrorCode::kInvalidArgument,
+                   "frame of " + size_text(frame.width(), frame.height()) +
+                       " pixels in a recording of " + size_text(report.width, report.height) +
+                       "; left out");
+  }
+  if (bits != report.container_bits) {
+    return failure(ErrorCode::kInvalidArgument,
+                   "frame of " + std::to_string(bits) + " bits in a recording of " +
+                       std::to_string(report.container_bits) + "; left out");
+  }
+  return {};
+}
+
+// All memory that frames of this size can need.
+void RecordingProbe::Impl::reserve(ImageView<const std::uint16_t> frame) {
+  previous.resize(frame.width(), frame.height());
+  working.resize(frame.width(), frame.height());
+  dead_frames.resize(frame.width(), frame.height());
+  fill_pixels(dead_frames.view(), 0U);
+  dead.reserve(frame.size());
+  changes.reserve(frame.size());
+}
+
+void RecordingProbe::Impl::add(ImageView<const std::uint16_t> frame) {
+  if (report.frames == 0) {
+    reserve(frame);
+  }
+  const bool is_repeat = report.frames > 0 && same_counts(frame, previous);
+  add_counts(frame);
+  const NoiseEstimate estimate = estimator.measure(frame);
+  frame_sigma.add(estimate.sigma_counts);
+  column_sigma.add(estimate.column_sigma_counts);
+  row_sigma.add(estimate.row_sigma_counts);
+  const double sigma = noise.add(frame);
+  series.add({report.frames, last_median, sigma});
+  if (is_repeat) {
+    ++report.repeated_frames;
+    report.longest_freeze = std::max(report.longest_freeze, ++freeze);
+  } else {
+    add_new_frame(frame, sigma);
+  }
+  ++report.frames;
+}
+
+void RecordingProbe::Impl::add_counts(ImageView<const std::uint16_t> frame) {
+  sorted.sort(frame);
+  totals.add(sorted);
+  const bool is_first = report.frames == 0;
+  report.min_counts = is_first ? sorted.min() : std::min(report.min_counts, sorted.min());
+  report.max_counts = is_first ? sorted.max() : std::max(report.max_counts, sorted.max());
+  range.add(sorted.max() - sorted.min());
+  robust_range.add(sorted.quantile(0.99) - sorted.quantile(0.01));
+  for (std::size_t i = 0; i < kGains.size(); ++i) {
+    clipped[i].add(sorted.clipped_share(kGains[i]));
+  }
+  const int median = sorted.quantile(0.5);
+  if (!is_first) {
+    flicker.add(std::abs(median - last_median));
+  }
+  last_median = median;
+  for (int y = 0; y < frame.height(); ++y) {
+    const std::uint16_t* row = frame.row(y);
+    for (int x = 0; x < frame.width(); ++x) {
+      bits_set |= row[x];
+    }
+  }
+}
+
+void RecordingProbe::Impl::add_new_frame(ImageView<const std::uint16_t> frame,
+                                         double sigma_counts) {
+  ++new_frames;
+  if (new_frames > 1) {
+    end_freeze(frame, sigma_counts);
+    noise.add_change();
+  }
+  if (gate.moved(frame, sigma_counts)) {
+    noise.add_to_pattern();
+    report.scene_moved += new_frames > 1 ? 1 : 0;
+  }
+  stripes.add(frame);
+  add_dead_pixels(frame, sigma_counts);
+  copy_pixels(frame, previous.view());
+}
+
+void RecordingProbe::Impl::end_freeze(ImageView<const std::uint16_t> frame, double sigma_counts) {
+  if (freeze >= kShutterRepeats) {
+    const double jump = median_change(previous, frame, changes);
+    if (std::abs(jump) > sigma_counts) {
+      ++report.offset_jumps;
+      report.largest_jump_counts = std::max(report.largest_jump_counts, std::abs(jump));
+    }
+  }
+  freeze = 0;
+}
+
+void RecordingProbe::Impl::add_dead_pixels(ImageView<const std::uint16_t> frame,
+                                           double sigma_counts) {
+  copy_pixels(frame, working.view());
+  correct_dead_pixels(working, sigma_counts, options.nuc, dead);
+  for (const DeadPixel& pixel : dead) {
+    ++dead_frames(pixel.x, pixel.y);
+  }
+  flags += static_cast<std::int64_t>(dead.size());
+}
+
+RecordingReport RecordingProbe::Impl::finish() const {
+  RecordingReport result = report;
+  if (report.frames == 0) {
+    return result;
+  }
+  result.degc_per_count = options.degc_per_count;
+  if (options.camera && result.frames > 0) {
+    result.degc_per_count =
+        options.camera->degc_per_count((result.min_counts + result.max_counts) / 2.0);
+    result.min_degc = options.camera->to_degc(result.min_counts);
+    result.max_degc = options.camera->to_degc(result.max_counts);
+  }
+  result.used_bits = std::bit_width(bits_set);
+  result.unused_low_bits = bits_set == 0 ? 0 : std::countr_zero(bits_set);
+  result.range_counts = range.value();
+  result.robust_range_counts = robust_range.value();
+  result.histogram = totals.histogram();
+  finish_noise(result);
+  finish_dead_pixels(result);
+  for (std::size_t i = 0; i < kGains.size(); ++i) {
+    result.clipping.push_back({kGains[i], clipped[i].value()});
+  }
+  if (flicker.count() > 0) {
+    result.flicker_counts = flicker.value();
+  }
+  result.series = series.samples();
+  result.suggested = suggest_options(result);
+  return result;
+}
+
+void RecordingProbe::Impl::finish_noise(RecordingReport& result) const {
+  result.sigma_counts = noise.sigma_counts();
+  result.frame_sigma_counts = frame_sigma.value();
+  result.temporal_sigma_counts = noise.temporal_sigma_counts();
+  result.noise_map = noise.map();
+  if (result.sigma_counts > 0) {
+    result.snr = result.robust_range_counts / result.sigma_counts;
+  }
+  if (const auto pattern = noise.pattern()) {
+    constexpr double kFramesOfAShortMap = 8;
+    result.fixed_pattern_sigma_counts = pattern->sigma_counts;
+    result.fixed_pattern_share = pattern->share;
+    const double rest = 1 - pattern->share;
+    result.offset_map_gain_limit = 1 - std::sqrt(rest);
+    result.offset_map_gain_8_frames =
+        std::max(1 - std::sqrt(rest * (1 + 1 / kFramesOfAShortMap)), 0.0);
+  }
+  result.column_sigma_counts = column_sigma.value();
+  result.row_sigma_counts = row_sigma.value();
+  result.column_profile_counts = stripes.columns();
+  result.row_profile_counts = stripes.rows();
+}
+
+void RecordingProbe::Impl::finish_dead_pixels(RecordingReport& result) const {
+  std::int64_t lasting = 0;
+  std::int64_t lasting_flags = 0;
+  if (new_frames >= kLeastFramesForDeadPixels) {
+    for (int y = 0; y < dead_frames.height(); ++y) {
+      for (int x = 0; x < dead_frames.width(); ++x) {
+        const std::int64_t frames = dead_frames(x, y);
+        if (2 * frames >= new_frames) {
+          ++lasting;
+          lasting_flags += frames;
+        }
+      }
+    }
+    result.dead_pixels = lasting;
+  }
+  result.passing_dead_pixels =
+      static_cast<double>(flags - lasting_flags) / static_cast<double>(new_frames);
+}
+
+double RecordingReport::clipped_share(double gain) const {
+  for (const GainClipping& entry : clipping) {
+    if (entry.gain == gain) {
+      return entry.share;
+    }
+  }
+  return 0;
+}
+
+RecordingProbe::RecordingProbe(const ProbeOptions& options) : impl_(std::make_unique<Impl>()) {
+  impl_->options = options;
+}
+RecordingProbe::RecordingProbe(RecordingProbe&&) noexcept = default;
+RecordingProbe& RecordingProbe::operator=(RecordingProbe&&) noexcept = default;
+RecordingProbe::~RecordingProbe() = default;
+
+Status RecordingProbe::add(ImageView<const std::uint16_t> frame, int bits) {
+  return impl_->check(frame, bits).and_then([&]() -> Status {
+    try {
+      impl_->add(frame);
+    } catch (const std::bad_alloc&) {
+      return failure(ErrorCode::kOutOfMemory, "not enough memory for a frame of " +
+                                                  size_text(frame.width(), frame.height()));
+    }
+    return {};
+  });
+}
+
+RecordingReport RecordingProbe::report() const { return impl_->finish(); }
+
+}  // namespace thermedge

@@ -1,0 +1,63 @@
+// The noise of a recording, tile by tile: spatial, temporal and fixed pattern.
+// What each means and why it is measured this way: RecordingReport.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "probe_counts.hpp"
+#include "thermedge/image.hpp"
+#include "thermedge/probe/probe.hpp"
+
+namespace thermedge::detail {
+
+// 1.4826 times the median of magnitudes: sigma where they are those of Gaussian values with mean 0.
+// n stands for the interval n - 0.5 .. n + 0.5, in which the median is interpolated; 0 stays 0.
+// Reorders `magnitudes`; 0 where there are none.
+[[nodiscard]] double sigma_of_magnitudes(std::vector<std::int32_t>& magnitudes);
+
+class TiledNoise {
+ public:
+  // Measures a frame and returns its spatial sigma, counts: 0 where a side is under 8 px.
+  // Frames have one size.
+  double add(ImageView<const std::uint16_t> frame);
+  // Compares the last frame with the one added before.
+  void add_change();
+  // Takes the last frame, in which the scene had moved, into one of the two maps of the pattern.
+  void add_to_pattern();
+
+  [[nodiscard]] double sigma_counts() const { return spatial_.value(); }
+  [[nodiscard]] std::optional<double> temporal_sigma_counts() const;
+  [[nodiscard]] NoiseMap map() const;
+
+  struct Pattern {
+    double sigma_counts;  // root mean square over the tiles
+    double share;         // of the spatial variance
+  };
+  [[nodiscard]] std::optional<Pattern> pattern() const;
+
+ private:
+  // Of the residuals. A tile covers the whole frame where that is smaller.
+  struct Tile {
+    int x, y, width, height;
+  };
+  void lay_tiles(int width, int height);
+  void filter(ImageView<const std::uint16_t> frame);
+  template <class F>
+  double tile_variance(const Tile& tile, double gain, F&& value);
+
+  std::vector<Tile> tiles_;
+  int tile_columns_ = 0;
+  Image<std::int32_t> residual_, previous_residual_;  // 6 times the noise, signed
+  Image<std::int32_t> slope_, previous_slope_;        // |gx| + |gy| by Sobel
+  std::vector<std::int32_t> slopes_, magnitudes_;
+  std::vector<double> tile_sigma_sums_;
+  double last_sigma_ = 0;
+  Mean spatial_, temporal_;
+  std::array<Image<std::int32_t>, 2> pattern_sums_;
+  std::array<int, 2> pattern_frames_{};
+};
+
+}  // namespace thermedge::detail

@@ -1,0 +1,101 @@
+// Which options of the detector suit a recording.
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "thermedge/options.hpp"
+#include "thermedge/probe/probe.hpp"
+
+namespace thermedge {
+namespace {
+
+constexpr double kMostClipped = 0.02;
+constexpr double kCoarsestLevelSigmas = 2;  // a coarser level hides what noise leaves
+constexpr double kFinestLevelSigmas = 0.25;
+constexpr double kSigmaTolerance = 0.05;
+constexpr double kStripesToRemove = 0.2;  // in units of the noise; edges alone look like an eighth
+constexpr double kManyPassing = 2e-4;     // of the pixels
+constexpr int kPaperWidth = 382;
+constexpr int kPaperHeight = 288;
+
+std::string number(double value, int digits) {
+  char text[32];
+  const auto end =
+      std::to_chars(std::begin(text), std::end(text), value, std::chars_format::fixed, digits).ptr;
+  return {std::begin(text), end};
+}
+
+std::string shortest(double value) {
+  char text[32];
+  return {std::begin(text), std::to_chars(std::begin(text), std::end(text), value).ptr};
+}
+
+std::string percent(double share) { return number(100 * share, 1) + " %"; }
+
+// The largest gain that clips little and is no finer than the noise deserves.
+std::optional<double> better_gain(const RecordingReport& report, double now) {
+  const double sigma = report.sigma_counts;
+  const bool clips = report.clipped_share(now) > kMostClipped;
+  const bool is_coarse = sigma > 0 && 1 / now > kCoarsestLevelSigmas * sigma;
+  if (!clips && !is_coarse) {
+    return std::nullopt;
+  }
+  for (const GainClipping& entry : report.clipping) {
+    if (entry.share <= kMostClipped && 1 / entry.gain >= kFinestLevelSigmas * sigma &&
+        (clips ? entry.gain < now : entry.gain > now)) {
+      return entry.gain;
+    }
+  }
+  return std::nullopt;
+}
+
+void suggest_gain(const RecordingReport& report, std::vector<SuggestedOption>& options) {
+  const double now = DetectorOptions{}.scale.gain;
+  if (const auto gain = better_gain(report, now)) {
+    options.push_back({"scale.gain", shortest(*gain),
+                       "clips " + percent(report.clipped_share(*gain)) + " of the pixels, gain " +
+                           shortest(now) + " would clip " + percent(report.clipped_share(now))});
+  }
+}
+
+void suggest_sigma(const RecordingReport& report, std::vector<SuggestedOption>& options) {
+  const double sigma = report.sigma_counts;
+  if (std::abs(sigma - report.frame_sigma_counts) > kSigmaTolerance * sigma) {
+    options.push_back({"denoise.sigma_counts", number(sigma, 1),
+                       "noise differs over the picture; its quieter half has " +
+                           number(report.frame_sigma_counts, 1) + " counts"});
+  }
+}
+
+}  // namespace
+
+std::vector<SuggestedOption> suggest_options(const RecordingReport& report) {
+  std::vector<SuggestedOption> options;
+  const DetectorOptions defaults;
+  const double pixels = static_cast<double>(report.width) * report.height;
+  if (report.passing_dead_pixels > kManyPassing * pixels) {
+    options.push_back({"nuc.dead_pixel_sigmas", shortest(2 * defaults.nuc.dead_pixel_sigmas),
+                       number(report.passing_dead_pixels, 0) +
+                           " pixels a frame are taken for dead that soon recover"});
+  }
+  const double stripes = std::max(report.column_sigma_counts, report.row_sigma_counts);
+  if (stripes > kStripesToRemove * report.sigma_counts) {
+    options.push_back({"nuc.stripes", "true",
+                       "columns or rows are offset by " + number(stripes, 1) +
+                           " counts, which come out as edges"});
+  }
+  if (report.container_bits == 16) {
+    suggest_gain(report, options);
+  }
+  suggest_sigma(report, options);
+  const double scale =
+      static_cast<double>(report.width + report.height) / (kPaperWidth + kPaperHeight);
+  if (scale < 0.75) {
+    options.push_back({"contours.min_component_px",
+                       number(std::round(defaults.contours.min_component_px * scale), 0),
+                       "in proportion to the size of the frames"});
+  }
+  return options;
+}
+
+}  // namespace thermedge

@@ -1,0 +1,87 @@
+#include "thermedge/radiometry/grey_scale.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "grey_scale_simd.hpp"
+#include "thermedge/options.hpp"
+
+namespace thermedge {
+namespace {
+
+constexpr std::size_t kCountValues = std::numeric_limits<std::uint16_t>::max() + std::size_t{1};
+
+constexpr double kMiddleLevel = 127;  // of the median (Algorithm 1)
+
+template <class T>
+std::string size_text(ImageView<T> image) {
+  return std::to_string(image.width()) + "x" + std::to_string(image.height());
+}
+
+}  // namespace
+
+int median_counts(ImageView<const std::uint16_t> frame) {
+  if (frame.empty()) {
+    return 0;
+  }
+  thread_local std::vector<std::uint32_t> histogram;
+  histogram.assign(kCountValues, 0);
+  for (int y = 0; y < frame.height(); ++y) {
+    const std::uint16_t* row = frame.row(y);
+    for (int x = 0; x < frame.width(); ++x) {
+      ++histogram[row[x]];
+    }
+  }
+  const std::size_t rank = (frame.size() - 1) / 2;
+  std::size_t counts = 0;
+  for (std::size_t below = histogram[0]; below <= rank; below += histogram[counts]) {
+    ++counts;
+  }
+  return static_cast<int>(counts);
+}
+
+Status scale_to_8bit(ImageView<const std::uint16_t> frame, const ScaleOptions& options,
+                     ImageView<std::uint8_t> levels) {
+  if (!same_size(frame, levels)) {
+    return failure(ErrorCode::kInvalidArgument, "levels: " + size_text(levels) +
+                                                    " pixels for a frame of " + size_text(frame) +
+                                                    "; both must have the same size");
+  }
+  if (Status status = check_ranges(options, "scale."); !status) {
+    return status;
+  }
+  const int median = median_counts(frame);
+  for (int y = 0; y < frame.height(); ++y) {
+    detail::scale_row(frame.row(y), frame.width(), {median, kMiddleLevel, options.gain},
+                      levels.row(y));
+  }
+  return {};
+}
+
+CountRange count_range(ImageView<const std::uint16_t> frame) {
+  if (frame.empty()) {
+    return {};
+  }
+  std::uint16_t smallest = std::numeric_limits<std::uint16_t>::max();
+  std::uint16_t largest = 0;
+  for (int y = 0; y < frame.height(); ++y) {
+    const std::uint16_t* row = frame.row(y);
+    for (int x = 0; x < frame.width(); ++x) {
+      smallest = std::min(smallest, row[x]);
+      largest = std::max(largest, row[x]);
+    }
+  }
+  return {smallest, largest};
+}
+
+double range_degc(CountRange range, double degc_per_count) {
+  return (range.max - range.min) * degc_per_count;
+}
+
+double degc_per_level(double range_degc, int bits) {
+  return range_degc / (static_cast<double>(std::uint64_t{1} << bits) - 1);
+}
+
+}  // namespace thermedge

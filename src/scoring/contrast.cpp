@@ -1,0 +1,380 @@
+#include "thermedge/stages/contrast.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numbers>
+#include <optional>
+
+#include "edgel_runs_simd.hpp"
+
+namespace thermedge {
+namespace {
+
+struct Vector {
+  double x = 0;
+  double y = 0;
+};
+
+// Points of one edge as a curve that goes on beyond its ends: closed ones wrap, open ones are
+// reflected at their end point, so that the end keeps its direction.
+class Curve {
+ public:
+  Curve(const Edgels& edgels, const Edge& edge)
+      : x_(edgels.x.data() + edge.edgels.first),
+        y_(edgels.y.data() + edge.edgels.first),
+        count_(edge.edgels.count),
+        closed_(edge.closed) {}
+
+  [[nodiscard]] Vector at(std::ptrdiff_t index) const {
+    const std::ptrdiff_t last = count_ - 1;
+    if (closed_) {
+      return point((index % count_ + count_) % count_);
+    }
+    if (index < 0) {
+      return reflected(0, std::min(-index, last));
+    }
+    if (index > last) {
+      return reflected(last, std::max(2 * last - index, std::ptrdiff_t{0}));
+    }
+    return point(index);
+  }
+
+  // As detail::tangents has it.
+  [[nodiscard]] Vector tangent(std::ptrdiff_t index) const {
+    Vector tangent;
+    for (int k = 1; k <= detail::kTangentReach; ++k) {
+      const Vector ahead = at(index + k);
+      const Vector behind = at(index - k);
+      tangent.x += detail::kTangentWeights[k - 1] * (ahead.x - behind.x);
+      tangent.y += detail::kTangentWeights[k - 1] * (ahead.y - behind.y);
+    }
+    return tangent;
+  }
+
+ private:
+  [[nodiscard]] Vector point(std::ptrdiff_t index) const { return {x_[index], y_[index]}; }
+  [[nodiscard]] Vector reflected(std::ptrdiff_t end, std::ptrdiff_t index) const {
+    const Vector centre = point(end);
+    const Vector other = point(index);
+    return {2 * centre.x - other.x, 2 * centre.y - other.y};
+  }
+
+  const float* x_;
+  const float* y_;
+  std::ptrdiff_t count_;
+  bool closed_;
+};
+
+// Unit normal, to the right of the walking direction.
+void set_normal(Vector tangent, std::size_t i, Edgels& edgels) {
+  const double length = std::sqrt(tangent.x * tangent.x + tangent.y * tangent.y);
+  edgels.nx[i] = length > 0 ? static_cast<float>(-tangent.y / length) : 1;
+  edgels.ny[i] = length > 0 ? static_cast<float>(tangent.x / length) : 0;
+}
+
+// task(first, count) for parts of a range that kernels take at once.
+template <class F>
+void for_each_run(Range range, F&& task) {
+  for (std::size_t done = 0; done < range.count; done += detail::kMostEdgels) {
+    task(range.first + done, std::min<std::size_t>(range.count - done, detail::kMostEdgels));
+  }
+}
+
+using RunOfDoubles = std::array<double, detail::kMostEdgels>;
+
+void set_normals(Edgels& edgels, const Edge& edge) {
+  constexpr std::uint32_t kReach = detail::kTangentReach;
+  const auto [first, count] = edge.edgels;
+  const bool is_long = count > 2 * kReach;
+  const Curve curve(edgels, edge);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    if (!is_long || i < kReach || i >= count - kReach) {
+      set_normal(curve.tangent(i), first + i, edgels);
+    } else {
+      i = count - kReach - 1;  // the middle follows
+    }
+  }
+  if (!is_long) {
+    return;
+  }
+  for_each_run({first + kReach, count - 2 * kReach}, [&](std::size_t begin, std::size_t run) {
+    RunOfDoubles along_x;
+    RunOfDoubles along_y;
+    detail::tangents(&edgels.x[begin], static_cast<int>(run), along_x.data());
+    detail::tangents(&edgels.y[begin], static_cast<int>(run), along_y.data());
+    for (std::size_t i = 0; i < run; ++i) {
+      set_normal({along_x[i], along_y[i]}, begin + i, edgels);
+    }
+  });
+}
+
+// Bilinear; nothing outside the frame.
+std::optional<double> sample(ImageView<const std::uint16_t> frame, Vector at) {
+  const int last_x = frame.width() - 1;
+  const int last_y = frame.height() - 1;
+  if (!(at.x >= 0 && at.y >= 0 && at.x <= last_x && at.y <= last_y)) {
+    return std::nullopt;
+  }
+  const int x = static_cast<int>(at.x);
+  const int y = static_cast<int>(at.y);
+  const std::uint16_t* row = frame.row(y) + x;
+  const std::uint16_t* below = y < last_y ? row + frame.stride() : row;
+  const int right = x < last_x ? 1 : 0;
+  const double fx = at.x - x;
+  const double fy = at.y - y;
+  const double upper = row[0] + fx * (row[right] - row[0]);
+  const double lower = below[0] + fx * (below[right] - below[0]);
+  return upper + fy * (lower - upper);
+}
+
+// Counts `distance` px ahead along the normal of an edgel less those as far behind it; NaN where
+// one lies outside the frame.
+double difference(ImageView<const std::uint16_t> frame, const Edgels& edgels, std::size_t i,
+                  double distance) {
+  const Vector step{distance * edgels.nx[i], distance * edgels.ny[i]};
+  const auto ahead = sample(frame, {edgels.x[i] + step.x, edgels.y[i] + step.y});
+  const auto behind = sample(frame, {edgels.x[i] - step.x, edgels.y[i] - step.y});
+  return ahead && behind ? *ahead - *behind : std::numeric_limits<double>::quiet_NaN();
+}
+
+// The same of `count` edgels, at most kMostEdgels.
+void differences(ImageView<const std::uint16_t> frame, const Edgels& edgels, std::size_t first,
+                 std::size_t count, double distance, RunOfDoubles& out) {
+  detail::differences_across(frame,
+                             {&edgels.x[first], &edgels.y[first], &edgels.nx[first],
+                              &edgels.ny[first], static_cast<int>(count)},
+                             distance, out.data());
+  for (std::size_t i = 0; i < count; ++i) {
+    if (std::isnan(out[i])) {  // next to the border, or outside
+      out[i] = difference(frame, edgels, first + i, distance);
+    }
+  }
+}
+
+struct Contrast {
+  double counts = 0;  // mean over the samples
+  int samples = 0;
+};
+
+constexpr double kNearestPx = 1.5;
+
+Contrast contrast_across(ImageView<const std::uint16_t> frame, const Edgels& edgels, Range range,
+                         double farthest_px) {
+  constexpr std::size_t kMostSteps = 4;
+  std::array<RunOfDoubles, kMostSteps> steps;
+  const auto per_edgel = static_cast<std::size_t>(farthest_px - kNearestPx) + 1;
+  assert(per_edgel <= kMostSteps);
+  double sum = 0;
+  int samples = 0;
+  for_each_run(range, [&](std::size_t first, std::size_t count) {
+    for (std::size_t k = 0; k < per_edgel; ++k) {
+      differences(frame, edgels, first, count, kNearestPx + static_cast<double>(k), steps[k]);
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      for (std::size_t k = 0; k < per_edgel; ++k) {
+        const bool seen = !std::isnan(steps[k][i]);
+        sum += seen ? steps[k][i] : 0;
+        samples += seen ? 1 : 0;
+      }
+    }
+  });
+  return {samples > 0 ? sum / samples : 0, samples};
+}
+
+void flip_normals(Edgels& edgels, Range range) {
+  for (std::size_t i = range.first; i < range.first + range.count; ++i) {
+    edgels.nx[i] = -edgels.nx[i];
+    edgels.ny[i] = -edgels.ny[i];
+  }
+}
+
+// Standard deviation of a position in whole pixels, found on a slope in noise.
+double position_sigma(double sigma_counts, double slope) {
+  constexpr double kOfWholePixels = 1.0 / 12;
+  if (!(sigma_counts > 0)) {
+    return std::sqrt(kOfWholePixels);
+  }
+  const double shift = sigma_counts / std::max(slope, sigma_counts / std::numbers::sqrt2);
+  return std::sqrt(kOfWholePixels + shift * shift);
+}
+
+void measure_edgels(ImageView<const std::uint16_t> frame, double sigma_counts, Range range,
+                    Edgels& edgels) {
+  for_each_run(range, [&](std::size_t first, std::size_t count) {
+    RunOfDoubles steps;
+    differences(frame, edgels, first, count, 1, steps);
+    for (std::size_t i = 0; i < count; ++i) {
+      const double slope = std::isnan(steps[i]) ? 0 : std::abs(steps[i]) / 2;
+      edgels.magnitude_counts[first + i] = static_cast<float>(slope);
+      edgels.position_sigma_px[first + i] = static_cast<float>(position_sigma(sigma_counts, slope));
+    }
+  });
+}
+
+// `more_variance`: of the contrast, in units of the noise, beside that of its samples.
+double z_of(const Contrast& contrast, double sigma_counts, double more_variance) {
+  if (contrast.counts == 0) {
+    return 0;
+  }
+  return sigma_counts > 0
+             ? contrast.counts / (sigma_counts * std::sqrt(2.0 / contrast.samples + more_variance))
+             : std::numeric_limits<double>::infinity();
+}
+
+// What the slope of the scene around an edge contributes to its contrast, counts.
+double contrast_of_slope(ImageView<const std::uint16_t> frame, const Edgels& edgels, Range range,
+                         double farthest_px) {
+  constexpr double kFarPx = 16;
+  double sum = 0;
+  int samples = 0;
+  for_each_run(range, [&](std::size_t first, std::size_t count) {
+    RunOfDoubles steps;
+    differences(frame, edgels, first, count, kFarPx, steps);
+    for (std::size_t i = 0; i < count; ++i) {
+      const bool seen = !std::isnan(steps[i]);
+      sum += seen ? steps[i] : 0;
+      samples += seen ? 1 : 0;
+    }
+  });
+  const double mean_px = (kNearestPx + farthest_px) / 2;
+  return samples > 0 ? sum / samples * mean_px / kFarPx : 0;
+}
+
+// How much of an edge runs along one column or row: 1 for a straight one along an axis, 1 / sqrt(2)
+// where half runs along either, next to 0 for one at 45 degrees.
+double alignment(const Edgels& edgels, Range range) {
+  const auto power_16 = [](float value) {
+    double power = value;
+    for (int i = 0; i < 4; ++i) {
+      power *= power;
+    }
+    return power;
+  };
+  double upright = 0;
+  double level = 0;
+  for (std::size_t i = range.first; i < range.first + range.count; ++i) {
+    upright += power_16(edgels.nx[i]);
+    level += power_16(edgels.ny[i]);
+  }
+  return std::sqrt(upright * upright + level * level) / range.count;
+}
+
+// log10 of P(Z > z) for a standard normal Z. Far out, where the probability itself would underflow,
+// by the asymptotic series erfc(x) = exp(-x^2) / (x sqrt(pi)) (1 - 1/(2 x^2) + 3/(4 x^4) - ...).
+double log10_tail(double z) {
+  const double x = z / std::numbers::sqrt2;
+  if (x < 10) {
+    return std::log10(std::erfc(x) / 2);
+  }
+  const double inverse = 1 / (2 * x * x);
+  const double series = 1 - inverse * (1 - 3 * inverse * (1 - 5 * inverse));
+  return std::log10(series * std::numbers::inv_sqrtpi / (2 * x)) - x * x * std::numbers::log10e;
+}
+
+double number_of_tests(const EdgeSet& edges) {
+  double tests = 0;
+  for (const Edge& edge : edges.edges) {
+    const double points = edge.edgels.count;
+    tests += points * (points - 1) / 2;
+  }
+  return std::max(tests, 1.0);
+}
+
+// What speaks for an edge: its contrast on the frame as it came, and its score, as far as a
+// denoiser can be trusted. On the edges that are found in noise it is a normal variable.
+struct Evidence {
+  double per_score;
+  double most_score;
+  double mean;
+  double deviation;
+
+  // In standard deviations.
+  [[nodiscard]] double of(const Edge& edge) const {
+    return (edge.z + per_score * std::min(edge.score, most_score) - mean) / deviation;
+  }
+};
+
+// The contrast is that from kNearestPx to `farthest_px` on both sides. significance(contrast, edge)
+// is the z of an edge; orient(edge) may turn normals round before.
+template <class Orient, class Significance, class Tail>
+void measure_all(ImageView<const std::uint16_t> frame, double sigma_counts, double tests,
+                 double farthest_px, EdgeSet& edges, Orient&& orient, Significance&& significance,
+                 Tail&& log10_p) {
+  const double log10_tests = std::log10(tests);
+  for (Edge& edge : edges.edges) {
+    set_normals(edges.edgels, edge);
+    orient(edge);
+    Contrast contrast = contrast_across(frame, edges.edgels, edge.edgels, farthest_px);
+    if (contrast.counts < 0) {
+      flip_normals(edges.edgels, edge.edgels);
+      contrast.counts = -contrast.counts;
+    }
+    measure_edgels(frame, sigma_counts, edge.edgels, edges.edgels);
+    edge.contrast_counts = contrast.counts;
+    edge.z = significance(contrast, edge);
+    edge.log10_nfa = log10_tests + log10_p(edge);
+  }
+}
+
+// Unit vectors at all multiples of 15 degrees.
+std::array<Vector, 24> directions() {
+  std::array<Vector, 24> along;
+  for (std::size_t i = 0; i < along.size(); ++i) {
+    const double angle = static_cast<double>(i) * std::numbers::pi / 12;
+    along[i] = {std::cos(angle), std::sin(angle)};
+  }
+  return along;
+}
+
+}  // namespace
+
+void measure_edges(ImageView<const std::uint16_t> frame, double sigma_counts, EdgeSet& edges) {
+  constexpr double kFarthestPx = 3.5;
+  measure_all(
+      frame, sigma_counts, number_of_tests(edges), kFarthestPx, edges, [](const Edge&) {},
+      [&](const Contrast& contrast, const Edge&) { return z_of(contrast, sigma_counts, 0); },
+      [](const Edge& edge) { return std::log10(2.0) + log10_tail(edge.z); });
+}
+
+void measure_edges(ImageView<const std::uint16_t> frame, double sigma_counts,
+                   ImageView<const std::int32_t> direction, const SignificanceOptions& options,
+                   EdgeSet& edges) {
+  constexpr double kPixelsPerCandidate = 55000;
+  constexpr Evidence kEvidence{1.6, 0.5, 1.3, 1.3};
+  constexpr double kFarthestPx = 4.5;
+  const double candidates = static_cast<double>(frame.size()) / kPixelsPerCandidate;
+  Edgels& edgels = edges.edgels;
+  const auto along = directions();
+  const auto orient = [&](const Edge& edge) {
+    for (std::size_t i = edge.edgels.first; i < edge.edgels.first + edge.edgels.count; ++i) {
+      const int steps = direction(static_cast<int>(edgels.x[i]), static_cast<int>(edgels.y[i]));
+      const Vector way = along[static_cast<std::size_t>(steps)];
+      if (way.x * edgels.ny[i] - way.y * edgels.nx[i] < 0) {
+        flip_normals(edgels, {static_cast<std::uint32_t>(i), 1});
+      }
+    }
+  };
+  const auto significance = [&](Contrast contrast, const Edge& edge) {
+    if (sigma_counts == 0) {
+      return z_of(contrast, 0, 0);
+    }
+    const double slope = contrast_of_slope(frame, edgels, edge.edgels, kFarthestPx);
+    contrast.counts = std::clamp(contrast.counts - slope, 0.0, contrast.counts);
+    const double stripes = options.stripe_sigmas * alignment(edgels, edge.edgels);
+    return z_of(contrast, sigma_counts, stripes * stripes);
+  };
+  measure_all(frame, sigma_counts, candidates, kFarthestPx, edges, orient, significance,
+              [&](const Edge& edge) { return log10_tail(kEvidence.of(edge)); });
+}
+
+void set_normals_from_shape(EdgeSet& edges) {
+  for (const Edge& edge : edges.edges) {
+    set_normals(edges.edgels, edge);
+  }
+}
+
+}  // namespace thermedge

@@ -1,0 +1,113 @@
+#include "thermedge/stages/selection.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <tuple>
+
+#include "thermedge/options.hpp"
+
+namespace thermedge {
+
+Status EdgeSelector::run(EdgeSet& edges) {
+  if (Status status = check_ranges(options_, "selection."); !status) {
+    return status;
+  }
+  bool in_order = true;
+  for (Edge& edge : edges.edges) {
+    edge.verdict = judge(edge);
+    in_order = in_order && edge.verdict == EdgeVerdict::kKept;
+  }
+  rank_of_.reserve(edges.edges.capacity());
+  if (!in_order) {
+    reorder(edges);
+  }
+  keep_best(edges);
+  return {};
+}
+
+EdgeVerdict EdgeSelector::judge(const Edge& edge) const {
+  if (edge.score < options_.min_score) {
+    return EdgeVerdict::kWeak;
+  }
+  if (options_.max_false_alarms > 0 && edge.log10_nfa > std::log10(options_.max_false_alarms)) {
+    return EdgeVerdict::kInsignificant;
+  }
+  return EdgeVerdict::kKept;
+}
+
+void EdgeSelector::reorder(EdgeSet& edges) {
+  std::sort(edges.edges.begin(), edges.edges.end(), [](const Edge& a, const Edge& b) {
+    const bool a_fails = a.verdict != EdgeVerdict::kKept;
+    const bool b_fails = b.verdict != EdgeVerdict::kKept;
+    return std::tie(a_fails, a.rank) < std::tie(b_fails, b.rank);
+  });
+  rank_of_.resize(edges.edges.size());
+  for (std::size_t i = 0; i < edges.edges.size(); ++i) {
+    rank_of_[static_cast<std::size_t>(edges.edges[i].rank)] = static_cast<std::int32_t>(i);
+  }
+  double strength = 1;  // of those before
+  for (std::size_t i = 0; i < edges.edges.size(); ++i) {
+    Edge& edge = edges.edges[i];
+    edge.strength = strength = std::min(edge.strength, strength);
+    edge.id = edge.rank = static_cast<std::int32_t>(i);
+    std::fill_n(edges.edgels.edge.begin() + edge.edgels.first, edge.edgels.count, edge.id);
+    const auto connections = slice(edges.connections, edge.connections);
+    std::transform(connections.begin(), connections.end(), connections.begin(),
+                   [&](std::int32_t id) { return rank_of_[static_cast<std::size_t>(id)]; });
+    std::sort(connections.begin(), connections.end());
+  }
+}
+
+void EdgeSelector::keep_best(EdgeSet& edges) const {
+  const std::size_t unlimited = std::numeric_limits<std::size_t>::max();
+  const auto limit = [=](int option) {
+    return option > 0 ? static_cast<std::size_t>(option) : unlimited;
+  };
+  const std::size_t most_edges = limit(options_.keep_edges);
+  const std::size_t most_edgels = limit(options_.max_edgels);
+  std::size_t edgels = 0;
+  bool within = true;
+  for (Edge& edge : edges.edges) {
+    if (edge.verdict != EdgeVerdict::kKept) {
+      break;
+    }
+    edgels += edge.edgels.count;
+    within = within && edges.kept != most_edges && edgels <= most_edgels;
+    if (within) {
+      edge.kept = true;
+      ++edges.kept;
+    } else {
+      edge.verdict = EdgeVerdict::kBeyondBudget;
+    }
+  }
+}
+
+void EdgeSelector::keep_junctions(int width, int height, EdgeSet& edges) {
+  constexpr std::int32_t kNobody = -1;
+  constexpr int kReach = 2;
+  owner_.resize(width, height);
+  fill_pixels(owner_.view(), kNobody);
+  for (const Edge& edge : edges.kept_edges()) {
+    for (std::size_t i = edge.edgels.first; i < edge.edgels.first + edge.edgels.count; ++i) {
+      owner_(static_cast<int>(std::floor(edges.edgels.x[i] + 0.5F)),
+             static_cast<int>(std::floor(edges.edgels.y[i] + 0.5F))) = edge.id;
+    }
+  }
+  std::erase_if(edges.junctions, [&](const Junction& junction) {
+    std::int32_t first = kNobody;
+    for (int y = junction.at.y - kReach; y <= junction.at.y + kReach; ++y) {
+      for (int x = junction.at.x - kReach; x <= junction.at.x + kReach; ++x) {
+        const std::int32_t owner = owner_.view().contains(x, y) ? owner_(x, y) : kNobody;
+        if (owner != kNobody && first != kNobody && owner != first) {
+          return false;
+        }
+        first = owner != kNobody ? owner : first;
+      }
+    }
+    return true;
+  });
+}
+
+}  // namespace thermedge

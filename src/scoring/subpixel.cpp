@@ -1,0 +1,178 @@
+#include "thermedge/stages/subpixel.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+namespace thermedge {
+namespace {
+
+// Least-squares quadratic through 3 x 3 values: its derivatives at the middle one.
+struct Facet {
+  double x = 0, y = 0, xx = 0, xy = 0, yy = 0;
+};
+
+// Logarithms of the 3 x 3 values around a pixel. From edgel to edgel of an edge most of them are
+// the same.
+class LogWindow {
+ public:
+  explicit LogWindow(ImageView<const float> values) : values_(values) {}
+
+  // The pixel is none of the border.
+  void move_to(int x, int y) {
+    const int dx = x - x_;
+    const int dy = y - y_;
+    x_ = x;
+    y_ = y;
+    const bool overlaps = std::abs(dx) <= 2 && std::abs(dy) <= 2;
+    const Logs before = logs_;
+    for (int j = 0; j < 3; ++j) {
+      for (int i = 0; i < 3; ++i) {
+        const bool known = overlaps && i + dx >= 0 && i + dx < 3 && j + dy >= 0 && j + dy < 3;
+        logs_[j][i] = known ? before[j + dy][i + dx] : log_at(x + i - 1, y + j - 1);
+      }
+    }
+  }
+
+  [[nodiscard]] Facet facet() const {
+    const auto column = [&](int i) { return logs_[0][i] + logs_[1][i] + logs_[2][i]; };
+    const auto row = [&](int j) { return logs_[j][0] + logs_[j][1] + logs_[j][2]; };
+    return {(column(2) - column(0)) / 6, (row(2) - row(0)) / 6,
+            (column(2) - 2 * column(1) + column(0)) / 3,
+            (logs_[2][2] - logs_[2][0] - logs_[0][2] + logs_[0][0]) / 4,
+            (row(2) - 2 * row(1) + row(0)) / 3};
+  }
+
+ private:
+  using Logs = std::array<std::array<double, 3>, 3>;
+
+  [[nodiscard]] double log_at(int x, int y) const {
+    constexpr double kLeast = 1e-6;
+    return std::log(std::max(static_cast<double>(values_(x, y)), kLeast));
+  }
+
+  ImageView<const float> values_;
+  int x_ = -8;  // nowhere near
+  int y_ = -8;
+  Logs logs_{};
+};
+
+constexpr double kHalfPixel = 0.499;
+
+// To the ridge, within the pixel.
+void move_to_ridge(ImageView<const float> strength, double sigma_times_strength, LogWindow& window,
+                   Edgels& edgels, std::size_t i) {
+  const int x = static_cast<int>(edgels.x[i] + 0.5F);  // not negative
+  const int y = static_cast<int>(edgels.y[i] + 0.5F);
+  if (x < 1 || y < 1 || x >= strength.width() - 1 || y >= strength.height() - 1) {
+    return;
+  }
+  window.move_to(x, y);
+  const Facet facet = window.facet();
+  const double nx = edgels.nx[i];
+  const double ny = edgels.ny[i];
+  const double slope = facet.x * nx + facet.y * ny;
+  const double curvature = facet.xx * nx * nx + 2 * facet.xy * nx * ny + facet.yy * ny * ny;
+  if (curvature < 0) {
+    const double limit = kHalfPixel / std::max(std::abs(nx), std::abs(ny));
+    const double shift = std::clamp(-slope / curvature, -limit, limit);
+    edgels.x[i] = static_cast<float>(x + shift * nx);
+    edgels.y[i] = static_cast<float>(y + shift * ny);
+  }
+  constexpr double kLeastSigma = 0.01;
+  edgels.position_sigma_px[i] = static_cast<float>(std::max(
+      sigma_times_strength / std::max(static_cast<double>(strength(x, y)), 1e-6), kLeastSigma));
+}
+
+constexpr std::size_t kReach = 8;  // edgels to either side that tell the curvature
+
+// The edgels of one edge as they were before the first was moved.
+class Unmoved {
+ public:
+  struct Point {
+    double x, y;
+  };
+
+  Unmoved(const Edgels& edgels, const Edge& edge)
+      : edgels_(edgels), first_(edge.edgels.first), count_(edge.edgels.count) {
+    for (std::size_t k = 0; k < kReach; ++k) {
+      begin_[k] = now(k);
+    }
+  }
+  // Called with 0, 1, 2 ... in turn, before the edgel is moved.
+  void remember(std::size_t i) { last_[i % kReach] = now(i); }
+  [[nodiscard]] Point ahead(std::size_t i) const {  // of edgel i + kReach
+    return i + kReach < count_ ? now(i + kReach) : begin_[i + kReach - count_];
+  }
+  [[nodiscard]] Point behind(std::size_t i) const {  // before remember(i)
+    return i >= kReach ? last_[i % kReach] : now(i + count_ - kReach);
+  }
+  [[nodiscard]] Point now(std::size_t i) const {
+    return {edgels_.x[first_ + i], edgels_.y[first_ + i]};
+  }
+
+ private:
+  const Edgels& edgels_;
+  std::size_t first_;
+  std::size_t count_;
+  std::array<Point, kReach> begin_{};
+  std::array<Point, kReach> last_{};
+};
+
+// Outwards, by half the variance of the kernel over the radius.
+void make_up_for_curvature(double along_px, const Edge& edge, Edgels& edgels) {
+  // Of what a kernel makes that is cut off at 2.25 standard deviations, measured on circles.
+  constexpr double kHalf = 0.47;
+  const std::size_t count = edge.edgels.count;
+  if (count <= 2 * kReach) {
+    return;
+  }
+  Unmoved unmoved(edgels, edge);
+  for (std::size_t i = 0; i < count; ++i) {
+    const bool has_both = edge.closed || (i >= kReach && i + kReach < count);
+    const Unmoved::Point here = unmoved.now(i);
+    const Unmoved::Point behind = has_both ? unmoved.behind(i) : here;
+    const Unmoved::Point ahead = has_both ? unmoved.ahead(i) : here;
+    unmoved.remember(i);
+    const double chord_x = ahead.x - behind.x;
+    const double chord_y = ahead.y - behind.y;
+    const double squared_half = (chord_x * chord_x + chord_y * chord_y) / 4;
+    if (!has_both || !(squared_half > 1)) {
+      continue;
+    }
+    const std::size_t at = edge.edgels.first + i;
+    const double nx = edgels.nx[at];
+    const double ny = edgels.ny[at];
+    const double sagitta =
+        ((ahead.x + behind.x) / 2 - here.x) * nx + ((ahead.y + behind.y) / 2 - here.y) * ny;
+    const double inwards = kHalf * along_px * along_px * 2 * sagitta / squared_half;
+    const double limit = kHalfPixel / std::max(std::abs(nx), std::abs(ny));
+    const double shift = std::clamp(inwards, -limit, limit);
+    const double x = std::floor(here.x + 0.5);
+    const double y = std::floor(here.y + 0.5);
+    edgels.x[at] =
+        static_cast<float>(std::clamp(here.x - shift * nx, x - kHalfPixel, x + kHalfPixel));
+    edgels.y[at] =
+        static_cast<float>(std::clamp(here.y - shift * ny, y - kHalfPixel, y + kHalfPixel));
+  }
+}
+
+}  // namespace
+
+void refine_positions(ImageView<const float> strength, KernelSize kernel, double noise,
+                      EdgeSet& edges) {
+  constexpr double kSigmaTimesStrength = 1.25;  // of kernels of this area
+  constexpr double kArea = 1.2 * 2.5;
+  const double sigma_times_strength =
+      kSigmaTimesStrength * noise * std::sqrt(kernel.across_px * kernel.along_px / kArea);
+  LogWindow window(strength);
+  for (std::size_t i = 0; i < edges.edgels.size(); ++i) {
+    move_to_ridge(strength, sigma_times_strength, window, edges.edgels, i);
+  }
+  for (const Edge& edge : edges.edges) {
+    make_up_for_curvature(kernel.along_px, edge, edges.edgels);
+  }
+}
+
+}  // namespace thermedge

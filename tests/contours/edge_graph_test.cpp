@@ -1,0 +1,206 @@
+// Curves from edge pixels by way of segments and junctions.
+#include "thermedge/stages/edge_graph.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "support/drawing.hpp"
+
+namespace thermedge {
+namespace {
+
+struct Drawing {
+  Drawing(int width, int height) : edges(width, height), strength(width, height) {
+    fill_pixels(edges.view(), std::uint8_t{0});
+    fill_pixels(strength.view(), 1.0F);
+  }
+  void draw(const std::vector<Pixel>& pixels) {
+    for (const Pixel pixel : pixels) {
+      edges(pixel.x, pixel.y) = 255;
+    }
+  }
+  [[nodiscard]] LinkedContours curves(const GraphOptions& options = {}) const {
+    LinkedContours curves;
+    GraphTracer tracer(options);
+    EXPECT_TRUE(tracer.run(edges, strength, curves));
+    return curves;
+  }
+  Image<std::uint8_t> edges;
+  Image<float> strength;
+};
+
+std::vector<Pixel> points_of(const LinkedContours& curves, std::size_t i) {
+  const auto pixels = curves.contours.pixels(curves.contours.contours[i]);
+  return {pixels.begin(), pixels.end()};
+}
+
+// The same curve whichever end it begins with.
+std::vector<std::pair<int, int>> canonical(const std::vector<Pixel>& points) {
+  std::vector<std::pair<int, int>> forward;
+  for (const Pixel point : points) {
+    forward.emplace_back(point.x, point.y);
+  }
+  std::vector<std::pair<int, int>> backward(forward.rbegin(), forward.rend());
+  return std::min(forward, backward);
+}
+
+TEST(GraphTracer, FollowsALine) {
+  Drawing drawing(40, 30);
+  const auto line = test::polyline({{5, 5}, {15, 15}, {30, 15}});
+  drawing.draw(line);
+  const LinkedContours curves = drawing.curves();
+  ASSERT_EQ(curves.contours.contours.size(), 1U);
+  EXPECT_FALSE(curves.contours.contours[0].closed);
+  EXPECT_EQ(canonical(points_of(curves, 0)), canonical(line));
+  EXPECT_TRUE(curves.contours.junctions.empty());
+}
+
+TEST(GraphTracer, DropsShortCurves) {
+  Drawing drawing(40, 30);
+  drawing.draw(test::straight({5, 5}, {14, 5}));    // 10
+  drawing.draw(test::straight({5, 20}, {15, 20}));  // 11
+  GraphOptions options;
+  options.min_length_px = 11;
+  EXPECT_EQ(drawing.curves(options).contours.contours.size(), 1U);
+}
+
+TEST(GraphTracer, ClosesARing) {
+  Drawing drawing(60, 50);
+  drawing.draw(test::polyline({{10, 10}, {40, 10}, {40, 40}, {10, 40}, {10, 10}}));
+  const LinkedContours curves = drawing.curves();
+  ASSERT_EQ(curves.contours.contours.size(), 1U);
+  EXPECT_TRUE(curves.contours.contours[0].closed);
+  // Corners of a square are cut: of three pixels around a corner the outer one goes.
+  EXPECT_GE(curves.contours.contours[0].points.count, 116U);
+}
+
+TEST(GraphTracer, LinesThatCrossGoStraightOn) {
+  Drawing drawing(60, 50);
+  drawing.draw(test::straight({5, 25}, {55, 25}));
+  drawing.draw(test::straight({30, 5}, {30, 45}));
+  const LinkedContours curves = drawing.curves();
+  ASSERT_EQ(curves.contours.contours.size(), 2U);
+  std::multiset<std::uint32_t> lengths;
+  for (const Contour& contour : curves.contours.contours) {
+    lengths.insert(contour.points.count);
+  }
+  EXPECT_NEAR(*lengths.begin(), 41, 1);
+  EXPECT_NEAR(*lengths.rbegin(), 51, 1);
+  EXPECT_EQ(curves.contours.junctions.size(), 1U);
+}
+
+TEST(GraphTracer, ABranchEndsWhereItMeetsALine) {
+  Drawing drawing(60, 50);
+  drawing.draw(test::straight({5, 25}, {55, 25}));
+  drawing.draw(test::straight({30, 26}, {30, 45}));
+  const LinkedContours curves = drawing.curves();
+  ASSERT_EQ(curves.contours.contours.size(), 2U);
+  ASSERT_EQ(curves.links.size(), 1U);
+  const Link& link = curves.links[0];
+  EXPECT_EQ(link.type, LinkType::kEndToMiddle);
+  EXPECT_EQ(curves.contours.contours[link.b].points.count, 51U);
+  EXPECT_LE(squared_distance(link.to, {30, 25}), 2);
+}
+
+TEST(GraphTracer, ASharpTurnAtAJunctionIsAnEnd) {
+  Drawing drawing(60, 60);
+  drawing.draw(test::straight({30, 30}, {30, 5}));
+  drawing.draw(test::straight({30, 30}, {10, 50}));
+  drawing.draw(test::straight({30, 30}, {50, 50}));  // turns of 45, 45 and 90 degrees
+  GraphOptions options;
+  options.max_turn_deg = 40;
+  EXPECT_EQ(drawing.curves(options).contours.contours.size(), 3U);
+  options.max_turn_deg = 50;
+  EXPECT_EQ(drawing.curves(options).contours.contours.size(), 2U);
+}
+
+TEST(GraphTracer, ThinsAndKeepsTheStrongerPixels) {
+  Drawing drawing(40, 30);
+  for (int x = 5; x <= 30; ++x) {
+    for (const int y : {10, 11}) {
+      drawing.edges(x, y) = 255;
+      drawing.strength(x, y) = y == 11 ? 2.0F : 1.0F;
+    }
+  }
+  const LinkedContours curves = drawing.curves();
+  ASSERT_EQ(curves.contours.contours.size(), 1U);
+  const auto points = points_of(curves, 0);
+  EXPECT_GE(points.size(), 24U);
+  EXPECT_TRUE(std::all_of(points.begin(), points.end(), [](Pixel p) { return p.y == 11; }));
+}
+
+// On random maps: curves run through edge pixels, from neighbour to neighbour, and the curves of
+// the transposed map are the transposed curves.
+TEST(GraphTracer, CurvesAreConnectedAndDoNotDependOnTheOrder) {
+  for (unsigned seed = 0; seed < 12; ++seed) {
+    std::mt19937 random(seed);
+    Drawing drawing(70, 50);
+    Drawing transposed(50, 70);
+    std::uniform_real_distribution<float> uniform(0.5F, 2.0F);
+    for (int y = 1; y < 49; ++y) {
+      for (int x = 1; x < 69; ++x) {
+        const bool edge = random() % 100 < 5 + seed;
+        drawing.edges(x, y) = transposed.edges(y, x) = edge ? 255 : 0;
+        drawing.strength(x, y) = transposed.strength(y, x) = uniform(random);
+      }
+    }
+    GraphOptions options;
+    options.min_length_px = 3;
+    const LinkedContours curves = drawing.curves(options);
+    const LinkedContours other = transposed.curves(options);
+    std::set<std::pair<int, int>> covered;
+    for (std::size_t i = 0; i < curves.contours.contours.size(); ++i) {
+      const auto points = points_of(curves, i);
+      for (std::size_t k = 0; k < points.size(); ++k) {
+        ASSERT_EQ(drawing.edges(points[k].x, points[k].y), 255);
+        covered.emplace(points[k].x, points[k].y);
+        if (k > 0) {
+          ASSERT_LE(squared_distance(points[k], points[k - 1]), 18) << "seed " << seed;
+        }
+      }
+    }
+    std::set<std::pair<int, int>> covered_by_other;
+    for (std::size_t i = 0; i < other.contours.contours.size(); ++i) {
+      for (const Pixel point : points_of(other, i)) {
+        covered_by_other.emplace(point.y, point.x);
+      }
+    }
+    std::vector<std::pair<int, int>> differing;
+    std::set_symmetric_difference(covered.begin(), covered.end(), covered_by_other.begin(),
+                                  covered_by_other.end(), std::back_inserter(differing));
+    EXPECT_LE(differing.size(), covered.size() / 20) << "seed " << seed;
+  }
+}
+
+TEST(GraphTracer, TakesAnySize) {
+  for (const auto& [width, height] : {std::pair{1, 1}, {1, 9}, {9, 1}, {2, 2}, {5, 3}}) {
+    Drawing drawing(width, height);
+    fill_pixels(drawing.edges.view(), std::uint8_t{255});
+    GraphOptions options;
+    options.min_length_px = 1;
+    EXPECT_GE(drawing.curves(options).contours.contours.size(), 1U) << width << " x " << height;
+  }
+}
+
+TEST(GraphTracer, RefusesSizesThatDifferAndOptionsOutOfRange) {
+  LinkedContours curves;
+  Image<std::uint8_t> edges(10, 10);
+  fill_pixels(edges.view(), std::uint8_t{0});
+  Image<float> strength(9, 10);
+  EXPECT_FALSE(GraphTracer({}).run(edges, strength, curves));
+  GraphOptions options;
+  options.max_turn_deg = 200;
+  Image<float> fitting(10, 10);
+  const Status status = GraphTracer(options).run(edges, fitting, curves);
+  ASSERT_FALSE(status);
+  EXPECT_NE(status.error().message.find("graph.max_turn_deg"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace thermedge

@@ -1,0 +1,209 @@
+#include "thermedge/stages/bad_pixels.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "support/images.hpp"
+
+namespace thermedge {
+
+void PrintTo(const DeadPixel& pixel, std::ostream* out) {
+  *out << "(" << pixel.x << ", " << pixel.y << ")";
+}
+
+namespace {
+
+using test::for_each_simd_target;
+using test::GuardedImage;
+using test::noise_image;
+
+constexpr double kSigma = 5;
+
+Image<std::uint16_t> noise(int width, int height, unsigned seed) {
+  return noise_image<std::uint16_t>(width, height, 3000, kSigma, seed);
+}
+
+std::vector<DeadPixel> correct(ImageView<std::uint16_t> frame, const NucOptions& options = {}) {
+  std::vector<DeadPixel> dead = {{99, 99}};
+  correct_dead_pixels(frame, kSigma, options, dead);
+  return dead;
+}
+
+// The rule of the header, written from its words: all pixels, sorted lists, no shortcuts.
+std::vector<DeadPixel> reference_dead_pixels(ImageView<const std::uint16_t> frame, double sigma,
+                                             double sigmas) {
+  std::vector<DeadPixel> dead;
+  const double limit = std::floor(std::max(sigma, 1.0) * sigmas);
+  for (int y = 0; y < frame.height(); ++y) {
+    for (int x = 0; x < frame.width(); ++x) {
+      std::vector<int> near, far;
+      for (int j = -2; j <= 2; ++j) {
+        for (int i = -2; i <= 2; ++i) {
+          const int distance = std::max(std::abs(i), std::abs(j));
+          if (distance > 0 && frame.contains(x + i, y + j)) {
+            (distance == 1 ? near : far).push_back(frame(x + i, y + j));
+          }
+        }
+      }
+      std::sort(near.begin(), near.end());
+      std::sort(far.begin(), far.end());
+      const int around = (far[(far.size() - 1) / 2] + far[far.size() / 2]) / 2;
+      const int high = near[near.size() - 2];
+      const int low = near[1];
+      const int contrast = near.size() == 8 ? 0 : far.back() - far.front();
+      if (frame(x, y) - high > limit + 2 * std::max(high - around, contrast) ||
+          low - frame(x, y) > limit + 2 * std::max(around - low, contrast)) {
+        dead.push_back({x, y});
+      }
+    }
+  }
+  return dead;
+}
+
+TEST(DeadPixelsReference, AgreesOnSmallSizesAndTargets) {
+  for_each_simd_target([](const std::string&) {
+    for (int width = 5; width <= 70; width += width < 40 ? 1 : 5) {
+      for (const int height : {5, 6, 9}) {
+        GuardedImage<std::uint16_t> frame(width, height, 60000);
+        const auto seed = static_cast<unsigned>(100 * width + height);
+        std::mt19937 random(seed);
+        copy_pixels(ImageView<const std::uint16_t>(noise(width, height, seed)), frame.view());
+        for (int i = 0; i < width * height / 20; ++i) {
+          const int x = static_cast<int>(random() % static_cast<unsigned>(width));
+          const int y = static_cast<int>(random() % static_cast<unsigned>(height));
+          frame.view()(x, y) = static_cast<std::uint16_t>(random() % 65536);
+        }
+        const auto expected = reference_dead_pixels(frame.view(), kSigma, 6);
+        EXPECT_EQ(correct(frame.view()), expected) << width << "x" << height;
+        EXPECT_TRUE(frame.intact());
+      }
+    }
+  });
+}
+
+void expect_corrected(const std::vector<DeadPixel>& places, const std::vector<int>& values) {
+  Image<std::uint16_t> frame = noise(40, 30, 8);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    frame(places[i].x, places[i].y) = static_cast<std::uint16_t>(values[i % values.size()]);
+  }
+  EXPECT_EQ(correct(frame), places);
+  for (const DeadPixel& place : places) {
+    EXPECT_NEAR(frame(place.x, place.y), 3000, 3 * kSigma);
+  }
+}
+
+TEST(DeadPixels, FindsSinglePixels) {
+  expect_corrected({{20, 10}}, {65535});
+  expect_corrected({{20, 10}}, {0});
+  expect_corrected({{20, 10}}, {3000 + 70});
+  expect_corrected({{3, 3}, {30, 10}, {7, 20}}, {0, 65535, 3100});
+}
+
+TEST(DeadPixels, FindsThemOnTheBorderAndInCorners) {
+  expect_corrected({{0, 0}, {15, 0}, {39, 0}, {0, 15}, {39, 15}, {0, 29}, {15, 29}, {39, 29}},
+                   {65535, 0});
+}
+
+TEST(DeadPixels, FindsPairsThatTouch) {
+  for (const int other : {65535, 0}) {
+    expect_corrected({{20, 10}, {21, 10}}, {65535, other});
+    expect_corrected({{20, 10}, {20, 11}}, {65535, other});
+    expect_corrected({{20, 10}, {21, 11}}, {0, other});
+    expect_corrected({{21, 10}, {20, 11}}, {0, other});
+    expect_corrected({{0, 0}, {1, 0}}, {0, other});
+    expect_corrected({{39, 28}, {39, 29}}, {65535, other});
+    expect_corrected({{0, 10}, {0, 11}}, {65535, other});
+  }
+}
+
+TEST(DeadPixels, TakesTheMedianOfGoodNeighbours) {
+  Image<std::uint16_t> frame(7, 7);
+  fill_pixels(frame.view(), std::uint16_t{500});
+  frame(3, 3) = 9000;
+  frame(4, 3) = 9000;
+  const std::uint16_t around[] = {491, 492, 493, 494, 506, 507, 508};
+  const DeadPixel places[] = {{2, 2}, {3, 2}, {4, 2}, {2, 3}, {2, 4}, {3, 4}, {4, 4}};
+  for (int i = 0; i < 7; ++i) {
+    frame(places[i].x, places[i].y) = around[i];
+  }
+  EXPECT_EQ(correct(frame).size(), 2U);
+  EXPECT_EQ(frame(3, 3), 494);
+}
+
+TEST(DeadPixels, TakesNoNoiseForDeadPixels) {
+  std::size_t found = 0;
+  for (unsigned seed = 0; seed < 100; ++seed) {
+    Image<std::uint16_t> frame = noise(382, 288, seed);
+    found += correct(frame).size();
+  }
+  EXPECT_LE(found, 1U);
+}
+
+// Points of every strength and place within the pixel, blurred by optics, are part of the scene.
+TEST(DeadPixels, SparesSmallHotObjects) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  for (int repeat = 0; repeat < 3000; ++repeat) {
+    const double blur_px = 0.75 + uniform(random);
+    const double height = 20 * std::pow(1000, uniform(random)) * (uniform(random) < 0.5 ? -1 : 1);
+    const double x0 = uniform(random) * 20;
+    const double y0 = uniform(random) * 20;
+    Image<std::uint16_t> frame =
+        noise_image<std::uint16_t>(21, 21, 30000, kSigma, static_cast<unsigned>(repeat));
+    for (int y = 0; y < 21; ++y) {
+      for (int x = 0; x < 21; ++x) {
+        const double squared = (x - x0) * (x - x0) + (y - y0) * (y - y0);
+        const double hot = height * std::exp(-squared / (2 * blur_px * blur_px));
+        frame(x, y) = static_cast<std::uint16_t>(std::lround(frame(x, y) + hot));
+      }
+    }
+    EXPECT_TRUE(correct(frame).empty())
+        << height << " counts at " << x0 << ", " << y0 << ", blur " << blur_px;
+  }
+}
+
+TEST(DeadPixels, ChangesNothingElse) {
+  Image<std::uint16_t> frame = noise(60, 40, 4);
+  frame(10, 10) = 0;
+  const Image<std::uint16_t> before = frame.clone();
+  ASSERT_EQ(correct(frame).size(), 1U);
+  frame(10, 10) = 0;
+  EXPECT_TRUE(test::same_pixels<std::uint16_t>(frame, before));
+}
+
+TEST(DeadPixels, LeavesTinyFramesAlone) {
+  for (int width = 0; width <= 6; ++width) {
+    for (int height = 0; height <= 4; ++height) {
+      Image<std::uint16_t> frame(width, height);
+      if (!frame.empty()) {
+        frame(width / 2, height / 2) = 65535;
+      }
+      EXPECT_TRUE(correct(frame).empty());
+    }
+  }
+}
+
+TEST(DeadPixels, ObeysItsOptions) {
+  Image<std::uint16_t> frame(20, 20);
+  fill_pixels(frame.view(), std::uint16_t{1000});
+  frame(10, 10) = 1030;
+  EXPECT_TRUE(correct(frame).empty()) << "6 sigma is not more than 6 sigma";
+  NucOptions options;
+  options.dead_pixel_sigmas = 5.9;
+  EXPECT_EQ(correct(frame, options).size(), 1U);
+  std::vector<DeadPixel> dead;
+  frame(10, 10) = 1006;
+  correct_dead_pixels(frame, 0, {}, dead);  // sigma is taken as 1
+  EXPECT_TRUE(dead.empty());
+  frame(10, 10) = 1007;
+  correct_dead_pixels(frame, 0, {}, dead);
+  EXPECT_EQ(dead.size(), 1U);
+}
+
+}  // namespace
+}  // namespace thermedge

@@ -1,0 +1,291 @@
+// What was planted in simulated recordings is found again.
+#include "thermedge/probe/probe.hpp"
+
+#include <gtest/gtest.h>
+
+#include "support/recordings.hpp"
+#include "thermedge/io/probe_file.hpp"
+#include "thermedge/stages/noise.hpp"
+
+namespace thermedge {
+namespace {
+
+using test::add_noise;
+using test::clean_frames;
+using test::noise_image;
+using test::scene_frames;
+
+RecordingReport probe(const std::vector<Image<std::uint16_t>>& frames, int bits = 16) {
+  RecordingProbe recording;
+  for (const Image<std::uint16_t>& frame : frames) {
+    const Status status = recording.add(frame, bits);
+    EXPECT_TRUE(status) << status.error().message;
+  }
+  return recording.report();
+}
+
+auto even(double sigma) {
+  return [sigma](int, int) { return sigma; };
+}
+
+std::vector<Image<std::uint16_t>> moving(int frames, double sigma, double pattern_sigma) {
+  std::vector<Image<std::uint16_t>> recording;
+  for (const Image<float>& clean :
+       clean_frames("sim:desk?width=256&height=192&frames=" + std::to_string(frames))) {
+    recording.push_back(add_noise(clean.view(), even(sigma), pattern_sigma,
+                                  static_cast<unsigned>(recording.size())));
+  }
+  return recording;
+}
+
+class ProbeOfScene : public testing::TestWithParam<const char*> {};
+
+TEST_P(ProbeOfScene, FindsNoiseAndStripes) {
+  for (const double sigma : {2.0, 20.0}) {
+    SCOPED_TRACE(sigma);
+    const double columns = sigma / 2;
+    const double rows = sigma / 3;
+    const auto report =
+        probe(scene_frames(std::string("sim:") + GetParam() + "?frames=8&dead_pixels=0&sigma=" +
+                           std::to_string(sigma) + "&column_sigma=" + std::to_string(columns) +
+                           "&row_sigma=" + std::to_string(rows)));
+    EXPECT_NEAR(report.sigma_counts / sigma, 1, 0.03);
+    EXPECT_NEAR(report.frame_sigma_counts / sigma, 1, 0.03);
+    ASSERT_TRUE(report.temporal_sigma_counts);
+    EXPECT_NEAR(*report.temporal_sigma_counts / sigma, 1, 0.03);
+    EXPECT_NEAR(report.column_sigma_counts / columns, 1, 0.15);
+    EXPECT_NEAR(report.row_sigma_counts / rows, 1, 0.3);
+    EXPECT_LT(report.fixed_pattern_share.value_or(0), 0.05) << "stripes are no pixel offsets";
+    EXPECT_EQ(report.dead_pixels, 0);
+    EXPECT_GE(report.scene_moved, 2) << "the hand begins slowly";
+    EXPECT_EQ(report.snr, report.robust_range_counts / report.sigma_counts);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, ProbeOfScene, testing::Values("desk", "corridor"),
+                         [](const auto& test) { return std::string(test.param); });
+
+TEST(Probe, TellsTheFixedPatternFromTemporalNoise) {
+  struct Noise {
+    double temporal, fixed;
+  };
+  for (const Noise noise : {Noise{5, 3}, Noise{3, 5}, Noise{6, 0}}) {
+    SCOPED_TRACE(noise.fixed);
+    const auto report = probe(moving(12, noise.temporal, noise.fixed));
+    const double both = std::hypot(noise.temporal, noise.fixed);
+    const double share = noise.fixed * noise.fixed / (both * both);
+    EXPECT_NEAR(report.sigma_counts / both, 1, 0.03);
+    EXPECT_NEAR(report.temporal_sigma_counts.value_or(0) / noise.temporal, 1, 0.03);
+    EXPECT_NEAR(report.fixed_pattern_sigma_counts.value_or(0), noise.fixed,
+                noise.fixed > 0 ? 0.1 * noise.fixed : 0.9);
+    EXPECT_NEAR(report.fixed_pattern_share.value_or(0), share, 0.03);
+    EXPECT_NEAR(report.offset_map_gain_limit.value_or(0), 1 - std::sqrt(1 - share), 0.03);
+    EXPECT_LE(*report.offset_map_gain_8_frames, *report.offset_map_gain_limit);
+  }
+}
+
+TEST(Probe, OfACameraAtRestLeavesTheFixedPatternOpen) {
+  const auto clean = clean_frames("sim:desk?frames=1");
+  std::vector<Image<std::uint16_t>> frames;
+  for (unsigned i = 0; i < 8; ++i) {
+    frames.push_back(add_noise(clean[0].view(), even(5), 3, i));
+    // Somebody walks through a tenth of the view.
+    for (int y = 0; y < 288; ++y) {
+      for (int x = 0; x < 38; ++x) {
+        frames.back()(static_cast<int>(40 * i) + x, y) += std::uint16_t{300};
+      }
+    }
+  }
+  const auto report = probe(frames);
+  EXPECT_EQ(report.scene_moved, 0);
+  EXPECT_FALSE(report.fixed_pattern_sigma_counts);
+  EXPECT_FALSE(report.offset_map_gain_limit);
+  EXPECT_NEAR(report.temporal_sigma_counts.value_or(0), 5, 0.15);
+}
+
+// Where noise is uneven the flatter half of a frame is its quieter half.
+TEST(Probe, OfUnevenNoiseGivesItsRootMeanSquareAndItsMap) {
+  const auto sigma = [](int x, int) { return x < 192 ? 8.0 : 15.0; };
+  std::vector<Image<std::uint16_t>> frames;
+  for (const Image<float>& clean : clean_frames("sim:desk?frames=3&width=384")) {
+    frames.push_back(add_noise(clean.view(), sigma, 0, static_cast<unsigned>(frames.size())));
+  }
+  const auto report = probe(frames);
+  EXPECT_NEAR(report.sigma_counts / std::hypot(8 / std::sqrt(2.0), 15 / std::sqrt(2.0)), 1, 0.03);
+  EXPECT_NEAR(report.frame_sigma_counts, 9.6, 0.5) << "the quieter half, and some";
+  const NoiseMap& map = report.noise_map;
+  ASSERT_GE(map.columns, 8);
+  ASSERT_GE(map.rows, 6);
+  ASSERT_EQ(map.sigma_counts.size(), static_cast<std::size_t>(map.columns * map.rows));
+  for (int row = 0; row < map.rows; ++row) {
+    const double* sigmas = map.sigma_counts.data() + row * map.columns;
+    EXPECT_NEAR(sigmas[1], 8, 1.6);
+    EXPECT_NEAR(sigmas[map.columns - 2], 15, 3);
+  }
+}
+
+TEST(Probe, CountsLastingDeadPixels) {
+  const auto report = probe(scene_frames("sim:desk?frames=6&dead_pixels=20"));
+  ASSERT_TRUE(report.dead_pixels);
+  EXPECT_NEAR(static_cast<double>(*report.dead_pixels), 20, 1);
+  EXPECT_LT(report.passing_dead_pixels, 2);
+}
+
+TEST(Probe, TellsPassingPixelsFromDeadOnes) {
+  auto frames = scene_frames("sim:desk?frames=6&dead_pixels=0");
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    frames[i](100, 100) = 0;
+    frames[i](150 + 10 * static_cast<int>(i), 50) = 16000;  // a different one in every frame
+  }
+  const auto report = probe(frames);
+  EXPECT_EQ(report.dead_pixels, 1);
+  EXPECT_NEAR(report.passing_dead_pixels, 1, 0.2);
+}
+
+std::vector<Image<std::uint16_t>> with_repeats(std::vector<Image<std::uint16_t>> frames,
+                                               const std::vector<int>& repeats) {
+  std::vector<Image<std::uint16_t>> longer;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    for (int k = 0; k <= repeats[i]; ++k) {
+      longer.push_back(frames[i].clone());
+    }
+  }
+  return longer;
+}
+
+TEST(Probe, FindsFreezesAndTheJumpsAfterThem) {
+  auto frames = scene_frames("sim:desk?frames=5");
+  for (std::size_t i = 3; i < frames.size(); ++i) {
+    for (int y = 0; y < frames[i].height(); ++y) {
+      for (int x = 0; x < frames[i].width(); ++x) {
+        frames[i](x, y) += std::uint16_t{60};  // the shutter corrected all offsets
+      }
+    }
+  }
+  const auto report = probe(with_repeats(std::move(frames), {0, 1, 7, 0, 3}));
+  EXPECT_EQ(report.frames, 16);
+  EXPECT_EQ(report.repeated_frames, 11);
+  EXPECT_EQ(report.longest_freeze, 7);
+  EXPECT_EQ(report.offset_jumps, 1);
+  EXPECT_NEAR(report.largest_jump_counts, 60, 3);
+  EXPECT_NEAR(report.temporal_sigma_counts.value_or(0), 5.8, 0.2) << "repeats are no frames";
+  EXPECT_GT(report.flicker_counts.value_or(0), 3.0);
+}
+
+TEST(Probe, AFreezeWithoutAnOffsetIsNoShutter) {
+  const auto report = probe(with_repeats(scene_frames("sim:desk?frames=4"), {0, 6, 0, 0}));
+  EXPECT_EQ(report.longest_freeze, 6);
+  EXPECT_EQ(report.offset_jumps, 0);
+  EXPECT_EQ(report.largest_jump_counts, 0);
+}
+
+TEST(Probe, OfFreshFramesFindsNoFreeze) {
+  const auto report = probe(scene_frames("sim:corridor?frames=4"));
+  EXPECT_EQ(report.repeated_frames, 0);
+  EXPECT_EQ(report.longest_freeze, 0);
+  EXPECT_EQ(report.offset_jumps, 0);
+}
+
+TEST(Probe, OfOneFrameLeavesOpenWhatTakesMore) {
+  const auto report = probe(scene_frames("sim:desk?frames=1"));
+  EXPECT_EQ(report.frames, 1);
+  EXPECT_NEAR(report.sigma_counts, 5.8, 0.2);
+  EXPECT_FALSE(report.temporal_sigma_counts);
+  EXPECT_FALSE(report.fixed_pattern_share);
+  EXPECT_FALSE(report.flicker_counts);
+  EXPECT_FALSE(report.dead_pixels);
+  EXPECT_NEAR(report.passing_dead_pixels, 5, 1);
+}
+
+TEST(Probe, Of8BitPicturesSuggestsNoGain) {
+  std::vector<Image<std::uint16_t>> frames;
+  frames.push_back(noise_image<std::uint16_t>(96, 72, 128, 40, 1));
+  for (int y = 0; y < 72; ++y) {
+    for (int x = 0; x < 96; ++x) {
+      frames[0](x, y) = std::min<std::uint16_t>(frames[0](x, y), 255);
+    }
+  }
+  const auto report = probe(frames, 8);
+  EXPECT_EQ(report.container_bits, 8);
+  EXPECT_EQ(report.used_bits, 8);
+  EXPECT_NEAR(report.sigma_counts, 40, 2.5);
+  for (const SuggestedOption& option : report.suggested) {
+    EXPECT_NE(option.name, "scale.gain");
+  }
+}
+
+TEST(Probe, OfConstantFramesFindsNothing) {
+  Image<std::uint16_t> frame(64, 48);
+  fill_pixels(frame.view(), std::uint16_t{3000});
+  std::vector<Image<std::uint16_t>> frames;
+  frames.push_back(frame.clone());
+  frames.push_back(frame.clone());
+  frames.push_back(std::move(frame));
+  const auto report = probe(frames);
+  EXPECT_EQ(report.sigma_counts, 0);
+  EXPECT_EQ(report.range_counts, 0);
+  EXPECT_FALSE(report.snr);
+  EXPECT_EQ(report.repeated_frames, 2);
+  EXPECT_EQ(report.clipped_share(0.5), 0);
+  EXPECT_EQ(report.flicker_counts, 0);
+}
+
+TEST(Probe, OfTinyFramesDoesNotMeasureNoise) {
+  for (int width = 1; width <= 12; ++width) {
+    for (const int height : {1, 2, 7, 8, 9}) {
+      RecordingProbe recording;
+      for (unsigned seed = 0; seed < 3; ++seed) {
+        ASSERT_TRUE(recording.add(noise_image<std::uint16_t>(width, height, 3000, 20, seed)));
+      }
+      const auto report = recording.report();
+      EXPECT_EQ(report.frames, 3);
+      EXPECT_EQ(report.column_profile_counts.size(), static_cast<std::size_t>(width));
+      EXPECT_EQ(report.row_profile_counts.size(), static_cast<std::size_t>(height));
+      EXPECT_EQ(report.sigma_counts > 0, std::min(width, height) >= 8) << width << "x" << height;
+    }
+  }
+}
+
+TEST(Probe, LeavesOutFramesOfAnotherKind) {
+  RecordingProbe recording;
+  EXPECT_EQ(recording.add({}).error().message, "frame without pixels");
+  ASSERT_TRUE(recording.add(noise_image<std::uint16_t>(40, 30, 3000, 5, 1)));
+  EXPECT_EQ(recording.add(noise_image<std::uint16_t>(30, 40, 3000, 5, 1)).error().message,
+            "frame of 30x40 pixels in a recording of 40x30; left out");
+  EXPECT_EQ(recording.add(noise_image<std::uint16_t>(40, 30, 100, 5, 1), 8).error().message,
+            "frame of 8 bits in a recording of 16; left out");
+  EXPECT_EQ(recording.add(noise_image<std::uint16_t>(40, 30, 100, 5, 1), 12).error().message,
+            "frame of 12 bits; should be 8 or 16");
+  ASSERT_TRUE(recording.add(noise_image<std::uint16_t>(40, 30, 3000, 5, 2)));
+  EXPECT_EQ(recording.report().frames, 2);
+}
+
+TEST(Probe, OfNoFramesIsEmpty) {
+  const RecordingReport report = RecordingProbe().report();
+  EXPECT_EQ(report.frames, 0);
+  EXPECT_TRUE(report.suggested.empty());
+}
+
+TEST(Probe, KeepsAnEvenSeriesOfLongRecordings) {
+  RecordingProbe recording;
+  const auto frame = noise_image<std::uint16_t>(16, 16, 3000, 5, 1);
+  for (int i = 0; i < 4200; ++i) {
+    ASSERT_TRUE(recording.add(frame));
+  }
+  const auto report = recording.report();
+  EXPECT_EQ(report.frames, 4200);
+  ASSERT_EQ(report.series.size(), 2100U);
+  for (std::size_t i = 0; i < report.series.size(); ++i) {
+    ASSERT_EQ(report.series[i].frame, static_cast<std::int64_t>(2 * i));
+  }
+}
+
+TEST(Probe, GivesTheSameReportOnEveryTarget) {
+  const auto frames = scene_frames("sim:desk?frames=3&width=97&height=67");
+  const std::string expected = io::probe_to_json(probe(frames), {});
+  test::for_each_simd_target(
+      [&](const std::string&) { EXPECT_EQ(io::probe_to_json(probe(frames), {}), expected); });
+}
+
+}  // namespace
+}  // namespace thermedge

@@ -1,0 +1,228 @@
+// The stable view: still where the scene is still, following where it drifts, jumping at cuts.
+#include "thermedge/radiometry/stable_grey_scale.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "support/images.hpp"
+#include "thermedge/io/source.hpp"
+#include "thermedge/radiometry/grey_scale.hpp"
+
+namespace thermedge {
+namespace {
+
+// A scene of `range` counts around `middle`, with noise.
+Image<std::uint16_t> scene(double middle, unsigned seed, double range = 400) {
+  Image<std::uint16_t> frame = test::noise_image<std::uint16_t>(64, 48, middle, 6, seed);
+  for (int y = 0; y < 48; ++y) {
+    for (int x = 0; x < 64; ++x) {
+      frame(x, y) = static_cast<std::uint16_t>(
+          std::clamp(frame(x, y) + range * (x - 31.5) / 64, 0.0, 65535.0));
+    }
+  }
+  return frame;
+}
+
+class Sequence {
+ public:
+  explicit Sequence(const StableViewOptions& options = {}) : view_(options) {}
+  ViewState show(const Image<std::uint16_t>& frame) {
+    levels_.resize(frame.width(), frame.height());
+    const auto state = view_.run(frame, levels_);
+    EXPECT_TRUE(state);
+    expect_levels(frame, *state);
+    return *state;
+  }
+  [[nodiscard]] const Image<std::uint8_t>& levels() const { return levels_; }
+
+ private:
+  // The levels are what gain and offset say, and the shares what is outside.
+  void expect_levels(const Image<std::uint16_t>& frame, const ViewState& state) const {
+    std::size_t low = 0, high = 0;
+    for (int y = 0; y < frame.height(); ++y) {
+      for (int x = 0; x < frame.width(); ++x) {
+        const double level = frame(x, y) * state.gain + state.offset;
+        low += level < 0 ? 1 : 0;
+        high += level > 255 ? 1 : 0;
+        // A sum that is a half but for rounding may fall to either side.
+        ASSERT_NEAR(levels_(x, y), std::clamp(level, 0.0, 255.0), 0.5 + 1e-9);
+      }
+    }
+    const auto pixels = static_cast<double>(frame.size());
+    EXPECT_NEAR(state.clipped_low_share, static_cast<double>(low) / pixels, 2 / pixels);
+    EXPECT_NEAR(state.clipped_high_share, static_cast<double>(high) / pixels, 2 / pixels);
+  }
+
+  StableView view_;
+  Image<std::uint8_t> levels_;
+};
+
+TEST(StableView, BeginsAsAlgorithm1) {
+  const Image<std::uint16_t> frame = scene(3000, 1);
+  Sequence sequence;
+  const ViewState state = sequence.show(frame);
+  EXPECT_EQ(state.event, ViewEvent::kStart);
+  EXPECT_EQ(state.gain, 0.2);
+  Image<std::uint8_t> wanted(64, 48);
+  ASSERT_TRUE(scale_to_8bit(frame, {.gain = 0.2}, wanted));
+  EXPECT_TRUE(test::same_pixels<std::uint8_t>(sequence.levels().view(), wanted.view()));
+}
+
+TEST(StableView, StaysPutWithinTheDeadBand) {
+  Sequence sequence;
+  const ViewState first = sequence.show(scene(3000, 1));
+  for (unsigned i = 2; i < 30; ++i) {
+    // +-150 counts are 30 levels.
+    const ViewState state = sequence.show(scene(3000 + 150 * std::sin(i), i));
+    EXPECT_EQ(state.offset, first.offset);
+    EXPECT_EQ(state.event, ViewEvent::kNone);
+  }
+}
+
+TEST(StableView, FollowsADriftByNoMoreThanTheSlewLimit) {
+  for (const double direction : {1.0, -1.0}) {
+    Sequence sequence;
+    ViewState before = sequence.show(scene(30000, 1));
+    const double start = before.offset;
+    for (unsigned i = 1; i < 200; ++i) {
+      const ViewState state = sequence.show(scene(30000 + direction * 4.0 * i, i));
+      EXPECT_LE(std::abs(state.offset - before.offset), 1 + 1e-9);
+      EXPECT_EQ(state.event, ViewEvent::kNone);
+      before = state;
+    }
+    // 796 counts are 159 levels, of which the dead band takes 32.
+    EXPECT_NEAR(start - before.offset, direction * (159 - 32), 2);
+  }
+}
+
+TEST(StableView, MovesNoFartherThanTheEdgeOfTheDeadBand) {
+  Sequence sequence;
+  const double start = sequence.show(scene(3000, 1)).offset;
+  double end = start;
+  for (unsigned i = 2; i < 40; ++i) {
+    end = sequence.show(scene(3000 + 200, i)).offset;  // 40 levels: 8 beyond the band
+  }
+  EXPECT_NEAR(start - end, 8, 0.5);
+}
+
+TEST(StableView, JumpsOnceAtASceneCut) {
+  Sequence sequence;
+  sequence.show(scene(3000, 1));
+  int events = 0;
+  for (unsigned i = 0; i < 20; ++i) {
+    const ViewState state = sequence.show(scene(9000, i));
+    events += state.event == ViewEvent::kSceneCut ? 1 : 0;
+    EXPECT_EQ(state.event == ViewEvent::kSceneCut, i == 2) << i;  // the third clipped frame
+    if (i >= 2) {
+      EXPECT_LT(state.clipped_low_share + state.clipped_high_share, 0.01);
+    }
+  }
+  EXPECT_EQ(events, 1);
+}
+
+TEST(StableView, LetsAFlashPass) {
+  Sequence sequence;
+  const double offset = sequence.show(scene(3000, 1)).offset;
+  for (unsigned i = 0; i < 30; ++i) {
+    const bool flash = i % 10 < 2;
+    const ViewState state = sequence.show(scene(flash ? 9000 : 3000, i));
+    EXPECT_EQ(state.event, ViewEvent::kNone);
+    EXPECT_EQ(state.offset, offset);
+  }
+}
+
+TEST(StableView, DoesNotJumpWhereThatWouldNotHelp) {
+  // The scene has four times the range of the view: clipped wherever the view lies.
+  Sequence sequence;
+  sequence.show(scene(20000, 1, 5000));
+  for (unsigned i = 2; i < 20; ++i) {
+    EXPECT_EQ(sequence.show(scene(20000, i, 5000)).event, ViewEvent::kNone);
+  }
+}
+
+TEST(StableView, ChoosesTheGainFromTheNoise) {
+  StableViewOptions options;
+  options.gain = 0;
+  Sequence sequence(options);
+  const double gain = sequence.show(scene(3000, 1)).gain;
+  EXPECT_NEAR(gain, 2 / 6.0, 0.04);
+  EXPECT_EQ(sequence.show(scene(3000, 2)).gain, gain);
+  Image<std::uint16_t> flat(32, 32);
+  fill_pixels(flat.view(), std::uint16_t{100});
+  EXPECT_EQ(Sequence(options).show(flat).gain, 1);
+}
+
+TEST(StableView, TakesExtremeFrames) {
+  for (const auto value : {std::uint16_t{0}, std::uint16_t{65535}}) {
+    Image<std::uint16_t> flat(9, 7);
+    fill_pixels(flat.view(), value);
+    Sequence sequence;
+    const ViewState state = sequence.show(flat);
+    EXPECT_EQ(state.clipped_low_share + state.clipped_high_share, 0);
+    EXPECT_EQ(sequence.levels()(4, 3), 127);
+    sequence.show(scene(3000, 1));  // another size and content
+  }
+}
+
+TEST(StableView, RefusesBadInputAndStaysAsItWas) {
+  StableView view;
+  Image<std::uint8_t> levels(64, 48), other(10, 10);
+  EXPECT_FALSE(view.run(scene(3000, 1), other));
+  EXPECT_FALSE(view.run(ImageView<const std::uint16_t>(), ImageView<std::uint8_t>()));
+  const auto state = view.run(scene(3000, 1), levels);
+  ASSERT_TRUE(state);
+  EXPECT_EQ(state->event, ViewEvent::kStart);
+
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  StableViewOptions bad[6];
+  bad[0].gain = -1;
+  bad[1].gain = nan;
+  bad[2].dead_band_levels = 128;
+  bad[3].slew_levels = nan;
+  bad[4].cut_clipped_share = 2;
+  bad[5].cut_frames = 0;
+  for (const StableViewOptions& options : bad) {
+    const auto refused = StableView(options).run(scene(3000, 1), levels);
+    ASSERT_FALSE(refused);
+    EXPECT_NE(refused.error().message.find("stable_view."), std::string::npos);
+  }
+}
+
+TEST(StableView, IsStillOnARealRecording) {
+  THERMEDGE_NEEDS_SHARED("data/optris_pi450");
+  const auto source =
+      io::open_files({(test::shared_directory() / "data/optris_pi450").string()}, {});
+  ASSERT_TRUE(source);
+  StableView view;
+  io::Frame frame;
+  Image<std::uint8_t> levels;
+  double before = 0, change = 0, algorithm1_change = 0, clipped = 0;
+  int median = 0, frames = 0;
+  while ((*source)->next(frame).value_or(false)) {
+    levels.resize(frame.counts.width(), frame.counts.height());
+    const auto state = view.run(frame.counts, levels);
+    ASSERT_TRUE(state);
+    const int now = median_counts(frame.counts);
+    if (frames > 0) {
+      change += std::abs(state->offset - before);
+      algorithm1_change += 0.5 * std::abs(now - median);
+    }
+    clipped += state->clipped_low_share + state->clipped_high_share;
+    before = state->offset;
+    median = now;
+    ++frames;
+  }
+  ASSERT_GT(frames, 50);
+  EXPECT_LE(change / (frames - 1), 0.05);
+  EXPECT_LT(clipped / frames, 0.015);
+  EXPECT_GT(algorithm1_change / (frames - 1), 0.4);
+  RecordProperty("change_levels", std::to_string(change / (frames - 1)));
+  RecordProperty("algorithm1_change_levels", std::to_string(algorithm1_change / (frames - 1)));
+  RecordProperty("clipped_share", std::to_string(clipped / frames));
+}
+
+}  // namespace
+}  // namespace thermedge

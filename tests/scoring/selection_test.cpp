@@ -1,0 +1,123 @@
+// Verdicts, order and budgets.
+#include "thermedge/stages/selection.hpp"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace thermedge {
+namespace {
+
+// Edges of 40, 30, 20 and 10 edgels, best first, with these numbers of false alarms and scores; the
+// first and the last are connected.
+EdgeSet four_edges(const std::vector<double>& log10_nfa, const std::vector<double>& scores) {
+  EdgeSet set;
+  for (std::size_t i = 0; i < 4; ++i) {
+    Edge edge;
+    edge.id = edge.rank = static_cast<int>(i);
+    edge.score = scores[i];
+    edge.log10_nfa = log10_nfa[i];
+    edge.edgels = {static_cast<std::uint32_t>(set.edgels.size()),
+                   static_cast<std::uint32_t>(40 - 10 * i)};
+    set.edgels.resize(set.edgels.size() + edge.edgels.count);
+    std::fill_n(set.edgels.edge.end() - edge.edgels.count, edge.edgels.count, edge.id);
+    if (i % 3 == 0) {
+      edge.connections = {static_cast<std::uint32_t>(set.connections.size()), 1};
+      set.connections.push_back(i == 0 ? 3 : 0);
+    }
+    set.edges.push_back(edge);
+  }
+  return set;
+}
+
+EdgeSet selected(const SelectionOptions& options) {
+  EdgeSet set = four_edges({-9, -9, -9, -9}, {4, 3, 2, 1});
+  EXPECT_TRUE(EdgeSelector(options).run(set));
+  return set;
+}
+
+TEST(EdgeSelector, BudgetOfEdges) {
+  EXPECT_EQ(selected({0, 0}).kept, 4U);
+  EXPECT_EQ(selected({4, 0}).kept, 4U);
+  EXPECT_EQ(selected({9, 0}).kept, 4U);
+  const EdgeSet set = selected({3, 0});
+  EXPECT_EQ(set.kept_edges().size(), 3U);
+  EXPECT_EQ(set.edges.size(), 4U);
+  EXPECT_TRUE(set.edges[2].kept);
+  EXPECT_FALSE(set.edges[3].kept);
+  EXPECT_EQ(set.edges[3].verdict, EdgeVerdict::kBeyondBudget);
+}
+
+TEST(EdgeSelector, BudgetOfEdgels) {
+  EXPECT_EQ(selected({0, 39}).kept, 0U);
+  EXPECT_EQ(selected({0, 40}).kept, 1U);
+  EXPECT_EQ(selected({0, 69}).kept, 1U);
+  EXPECT_EQ(selected({0, 70}).kept, 2U);
+  EXPECT_EQ(selected({0, 1000}).kept, 4U);
+  EXPECT_EQ(selected({1, 1000}).kept, 1U);
+}
+
+// What fails is drawn no stronger than what is kept.
+TEST(EdgeSelector, StrengthFollowsTheNewOrder) {
+  EdgeSet set = four_edges({-9, 0, -9, -9}, {4, 3, 2, 1});
+  for (Edge& edge : set.edges) {
+    edge.strength = edge.score / 4;
+  }
+  SelectionOptions options;
+  options.max_false_alarms = 0.1;
+  ASSERT_TRUE(EdgeSelector(options).run(set));
+  ASSERT_EQ(set.edges[3].verdict, EdgeVerdict::kInsignificant);
+  EXPECT_EQ(set.edges[3].score, 3);
+  EXPECT_EQ(set.edges[0].strength, 1);
+  EXPECT_EQ(set.edges[2].strength, 0.25);
+  EXPECT_EQ(set.edges[3].strength, 0.25);
+}
+
+TEST(EdgeSelector, EdgesThatFailGoBehindTheOthers) {
+  SelectionOptions options;
+  options.min_score = 1.5;
+  options.max_false_alarms = 0.01;
+  EdgeSet set = four_edges({-1, -5, -5, -5}, {4, 3, 2, 1});
+  ASSERT_TRUE(EdgeSelector(options).run(set));
+  EXPECT_EQ(set.kept, 2U);
+  const std::vector<EdgeVerdict> expected = {EdgeVerdict::kKept, EdgeVerdict::kKept,
+                                             EdgeVerdict::kInsignificant, EdgeVerdict::kWeak};
+  const std::vector<double> scores = {3, 2, 4, 1};
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Edge& edge = set.edges[i];
+    EXPECT_EQ(edge.verdict, expected[i]);
+    EXPECT_EQ(edge.score, scores[i]);
+    EXPECT_EQ(edge.rank, static_cast<int>(i));
+    for (std::uint32_t k = 0; k < edge.edgels.count; ++k) {
+      EXPECT_EQ(set.edgels.edge[edge.edgels.first + k], edge.id);
+    }
+  }
+  ASSERT_EQ(set.connections_of(set.edges[2]).size(), 1U);
+  EXPECT_EQ(set.connections_of(set.edges[2])[0], 3);
+  EXPECT_EQ(set.connections_of(set.edges[3])[0], 2);
+}
+
+TEST(EdgeSelector, KeepsTheJunctionsOfKeptEdges) {
+  EdgeSet set = four_edges({-9, -9, -9, -9}, {4, 3, 2, 1});
+  // Edge i runs along row 2 i.
+  for (const Edge& edge : set.edges) {
+    for (std::uint32_t k = 0; k < edge.edgels.count; ++k) {
+      set.edgels.x[edge.edgels.first + k] = static_cast<float>(k);
+      set.edgels.y[edge.edgels.first + k] = static_cast<float>(2 * edge.id);
+    }
+  }
+  set.junctions = {{{5, 1}}, {{5, 5}}, {{35, 1}}};  // of edges 0 and 1, 2 and 3, 0 alone
+  EdgeSelector selector({2, 0});
+  ASSERT_TRUE(selector.run(set));
+  selector.keep_junctions(60, 20, set);
+  ASSERT_EQ(set.junctions.size(), 1U);
+  EXPECT_EQ(set.junctions[0].at, (Pixel{5, 1}));
+}
+
+TEST(EdgeSelector, RefusesBudgetsBelowZero) {
+  EdgeSet set;
+  EXPECT_FALSE(EdgeSelector({-1, 0}).run(set));
+}
+
+}  // namespace
+}  // namespace thermedge
