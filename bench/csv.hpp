@@ -6,8 +6,8 @@
 #include <string>
 #include <utility>
 
-#include "must.hpp"
 #include "thermedge/io/write.hpp"
+#include "value_or_exit.hpp"
 
 namespace thermedge::bench {
 
@@ -19,7 +19,7 @@ class Csv {
     fmt::print("{}\n", row);
     text_ += row + "\n";
   }
-  void write() const { must(io::write_file(path_, text_)); }
+  void write() const { value_or_exit(io::write_file(path_, text_)); }
 
  private:
   std::string path_;

@@ -120,7 +120,7 @@ double psnr(ImageView<const float> clean, ImageView<const float> out) {
 
 using Filter = std::function<void(ImageView<const float> in, double sigma, ImageView<float> out)>;
 
-struct Contender {
+struct Competitor {
   [[nodiscard]] std::string name() const { return library + "," + method + "," + settings; }
 
   std::string library;
@@ -131,10 +131,10 @@ struct Contender {
   Filter filter;
 };
 
-Contender ours(const std::string& method, const std::string& settings, const std::string& simd,
-               int threads, const DenoiseOptions& options) {
+Competitor ours(const std::string& method, const std::string& settings, const std::string& simd,
+                int threads, const DenoiseOptions& options) {
   auto denoiser = std::make_shared<Denoiser>(options);
-  auto runner = std::shared_ptr<Runner>(make_runner(threads));
+  auto runner = std::shared_ptr<ParallelRunner>(make_runner(threads));
   return {"thermedge",
           method,
           settings,
@@ -148,8 +148,8 @@ Contender ours(const std::string& method, const std::string& settings, const std
           }};
 }
 
-std::vector<Contender> contenders() {
-  std::vector<Contender> all;
+std::vector<Competitor> competitors() {
+  std::vector<Competitor> all;
   for (const std::string& simd : simd_targets()) {
     for (const int threads : {1, 2}) {
       DenoiseOptions options;
@@ -189,18 +189,18 @@ std::vector<Contender> contenders() {
 }
 
 // The mean over pictures for each sigma; fails where a filter does nothing against strong noise.
-std::vector<double> quality(const Contender& contender, const PictureSet& set) {
+std::vector<double> quality(const Competitor& competitor, const PictureSet& set) {
   std::vector<double> means;
   for (const int sigma : kSigmas) {
     double sum = 0;
     for (const Picture& picture : set.pictures) {
       const Image<float>& noisy = picture.noisy.at(sigma);
       Image<float> out(noisy.width(), noisy.height());
-      contender.filter(noisy, sigma, out);
+      competitor.filter(noisy, sigma, out);
       const double gain = psnr(picture.clean, out) - psnr(picture.clean, noisy);
       if (sigma == kSigmas.back() && !(gain > 3)) {
-        fmt::print(stderr, "{} {} {}: {:.2f} dB at sigma {} is no denoising\n", contender.library,
-                   contender.method, contender.settings, gain, sigma);
+        fmt::print(stderr, "{} {} {}: {:.2f} dB at sigma {} is no denoising\n", competitor.library,
+                   competitor.method, competitor.settings, gain, sigma);
         std::exit(1);
       }
       sum += psnr(picture.clean, out);
@@ -210,13 +210,13 @@ std::vector<double> quality(const Contender& contender, const PictureSet& set) {
   return means;
 }
 
-double ms_of(const Contender& contender, ImageView<const float> in, ImageView<float> out) {
+double ms_of(const Competitor& competitor, ImageView<const float> in, ImageView<float> out) {
   constexpr double kLeastMs = 10;  // enough repetitions for the clock
   double ms = 0;
   int runs = 0;
   for (runs = 0; ms < kLeastMs; ++runs) {
     const auto start = std::chrono::steady_clock::now();
-    contender.filter(in, kTimedSigma, out);
+    competitor.filter(in, kTimedSigma, out);
     ms +=
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   }
@@ -231,7 +231,7 @@ void use_simd(const std::string& target) {
 }
 
 // Everybody once a round, so that a busy moment of the machine is shared; medians over the rounds.
-std::vector<double> time_all(const std::vector<Contender>& all, ImageView<const float> in) {
+std::vector<double> time_all(const std::vector<Competitor>& all, ImageView<const float> in) {
   std::vector<std::vector<double>> samples(all.size());
   Image<float> out(in.width(), in.height());
   for (int round = 0; round <= kRounds; ++round) {
@@ -261,7 +261,7 @@ std::vector<double> time_all(const std::vector<Contender>& all, ImageView<const 
 }
 
 int run(const std::string& csv, const std::string& photograph_directory) {
-  const std::vector<Contender> all = contenders();
+  const std::vector<Competitor> all = competitors();
   std::vector<PictureSet> sets(1);
   sets[0].name = "simulated";
   for (const std::string scene : {"desk", "corridor"}) {
@@ -282,13 +282,13 @@ int run(const std::string& csv, const std::string& photograph_directory) {
   file.print("\n");
   // The same for every SIMD target, number of threads and size of the timed frame.
   std::map<std::string, std::string> quality_columns;
-  for (const Contender& contender : all) {
-    std::string& columns = quality_columns[contender.name()];
+  for (const Competitor& competitor : all) {
+    std::string& columns = quality_columns[competitor.name()];
     if (!columns.empty()) {
       continue;
     }
     for (const PictureSet& set : sets) {
-      for (const double mean : quality(contender, set)) {
+      for (const double mean : quality(competitor, set)) {
         columns += fmt::format(",{:.3f}", mean);
       }
     }
@@ -297,14 +297,14 @@ int run(const std::string& csv, const std::string& photograph_directory) {
     const Picture picture = simulated("corridor", width, height);
     const std::vector<double> ms = time_all(all, picture.noisy.at(static_cast<int>(kTimedSigma)));
     for (std::size_t i = 0; i < all.size(); ++i) {
-      const Contender& contender = all[i];
+      const Competitor& competitor = all[i];
       const double mpx_per_s = width * height / ms[i] / 1000;
-      file.print("{},{},{},{},{},{:.4f},{:.3f}{}\n", contender.name(), contender.simd,
-                 contender.threads, width, height, ms[i], mpx_per_s,
-                 quality_columns[contender.name()]);
+      file.print("{},{},{},{},{},{:.4f},{:.3f}{}\n", competitor.name(), competitor.simd,
+                 competitor.threads, width, height, ms[i], mpx_per_s,
+                 quality_columns[competitor.name()]);
       fmt::print("{:9} {:8} {:8} {:6} {} thread{} {}x{} {:9.3f} ms {:8.2f} Mpx/s\n",
-                 contender.library, contender.method, contender.settings, contender.simd,
-                 contender.threads, contender.threads == 1 ? ' ' : 's', width, height, ms[i],
+                 competitor.library, competitor.method, competitor.settings, competitor.simd,
+                 competitor.threads, competitor.threads == 1 ? ' ' : 's', width, height, ms[i],
                  mpx_per_s);
     }
   }

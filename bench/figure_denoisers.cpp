@@ -4,9 +4,9 @@
 #include "csv.hpp"
 #include "figures.hpp"
 #include "measuring.hpp"
-#include "must.hpp"
 #include "thermedge/detector.hpp"
 #include "thermedge/edge_fields.hpp"
+#include "value_or_exit.hpp"
 
 namespace thermedge::bench {
 namespace {
@@ -16,12 +16,12 @@ struct Frames {
   std::vector<TestFrame> tuning, test;
 };
 
-void add_row(const Frames& frames, const std::string& denoiser, const Contender& contender,
+void add_row(const Frames& frames, const std::string& denoiser, const Competitor& competitor,
              Csv& csv) {
-  const std::size_t setting = best_setting(contender, frames.tuning);
-  const Performance p = measure(contender, setting, frames.test);
+  const std::size_t setting = best_setting(competitor, frames.tuning);
+  const Performance p = measure(competitor, setting, frames.test);
   csv.add(fmt::format("{},{},{},{},{},{:.4f},{:.4f},{:.4f},{:.3f}", frames.noise, denoiser,
-                      contender.name, contender.setting_name(setting), frames.test.size(),
+                      competitor.name, competitor.setting_name(setting), frames.test.size(),
                       p.counts.f_measure(), p.counts.precision(), p.counts.recall(), p.ms));
 }
 
@@ -30,12 +30,12 @@ Finder paper_behind() {
   DetectorOptions options = preset_options(Preset::kPaper);
   options.denoise.method = DenoiseMethod::kNone;
   options.threads = 1;
-  const auto detector = std::make_shared<Detector>(must(Detector::create(options)));
+  const auto detector = std::make_shared<Detector>(value_or_exit(Detector::create(options)));
   return {"defaults",
           [detector](ImageView<const std::uint8_t> levels, ImageView<std::uint8_t> map) {
             Image<std::uint16_t> counts(levels.width(), levels.height());
             copy_pixels(levels, counts.view());
-            draw_mask(must(detector->detect(counts, 8))->edges, map);
+            draw_mask(value_or_exit(detector->detect(counts, 8))->edges, map);
           }};
 }
 
@@ -48,8 +48,8 @@ void measure_denoisers(const BenchOptions& options) {
           "noise_counts,denoiser,detector,setting,frames,f,precision,recall,ms");
   for (const int noise : {8, 20}) {
     const Frames frames{noise, exposed(tuning, noise, 1000), exposed(test, noise, 2000)};
-    for (const Front& front : denoising_fronts()) {
-      for (Contender& detector : detectors_on_levels()) {
+    for (const FrontEnd& front : denoising_fronts()) {
+      for (Competitor& detector : detectors_on_levels()) {
         detector.fronts = {front};
         add_row(frames, front.name, detector, csv);
       }

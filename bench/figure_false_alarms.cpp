@@ -3,9 +3,9 @@
 
 #include "csv.hpp"
 #include "figures.hpp"
-#include "must.hpp"
 #include "test_frames.hpp"
 #include "thermedge/detector.hpp"
+#include "value_or_exit.hpp"
 
 namespace thermedge::bench {
 namespace {
@@ -20,11 +20,11 @@ constexpr std::array kKinds = {Kind{Emptiness::kPlain, "plain"},
 
 // Mean over frames.
 double false_edges(const DetectorOptions& options, Emptiness kind, double sigma, int frames) {
-  Detector detector = must(Detector::create(options));
+  Detector detector = value_or_exit(Detector::create(options));
   std::size_t edges = 0;
   for (int frame = 0; frame < frames; ++frame) {
     const auto counts = empty_frame(kind, sigma, 9000 + static_cast<unsigned>(frame));
-    edges += must(detector.detect(counts))->edges.kept;
+    edges += value_or_exit(detector.detect(counts))->edges.kept;
   }
   return static_cast<double>(edges) / frames;
 }

@@ -16,21 +16,21 @@ constexpr std::array kNoises = {0, 1, 2, 4, 8, 12, 16, 20, 25, 30};  // counts
 constexpr std::uint64_t kTuningSeed = 1000;
 constexpr std::uint64_t kTestSeed = 2000;
 
-using Settings = std::map<int, std::vector<std::size_t>>;  // by noise, one for each contender
+using Settings = std::map<int, std::vector<std::size_t>>;  // by noise, one for each competitor
 
-Settings tune(const std::vector<Contender>& all, int scenes) {
+Settings tune(const std::vector<Competitor>& all, int scenes) {
   Settings settings;
   const std::vector<CleanScene> clean = random_scenes(kTuningSeed, scenes);
   for (const int noise : kNoises) {
     const std::vector<TestFrame> frames = exposed(clean, noise, kTuningSeed);
-    for (const Contender& contender : all) {
-      settings[noise].push_back(best_setting(contender, frames));
+    for (const Competitor& competitor : all) {
+      settings[noise].push_back(best_setting(competitor, frames));
     }
   }
   return settings;
 }
 
-void add_rows(const std::string& set, double noise, const std::vector<Contender>& all,
+void add_rows(const std::string& set, double noise, const std::vector<Competitor>& all,
               const std::vector<std::size_t>& settings, const std::vector<TestFrame>& frames,
               Csv& csv) {
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -42,8 +42,8 @@ void add_rows(const std::string& set, double noise, const std::vector<Contender>
 }
 
 // Peers get the setting for the noise next to what is measured on the frames.
-void add_others(const std::string& set, const std::vector<Contender>& all, const Settings& settings,
-                const std::vector<TestFrame>& frames, Csv& csv) {
+void add_others(const std::string& set, const std::vector<Competitor>& all,
+                const Settings& settings, const std::vector<TestFrame>& frames, Csv& csv) {
   std::vector<double> sigmas;
   sigmas.reserve(frames.size());
   for (const TestFrame& frame : frames) {
@@ -62,9 +62,9 @@ void add_others(const std::string& set, const std::vector<Contender>& all, const
 }  // namespace
 
 void measure_noise(const BenchOptions& options) {
-  const std::vector<Contender> all = all_contenders();
+  const std::vector<Competitor> all = all_competitors();
   Csv csv(options.out + "/edges.csv",
-          "set,noise_counts,family,contender,setting,frames,f,precision,recall,ms");
+          "set,noise_counts,family,competitor,setting,frames,f,precision,recall,ms");
   const Settings settings = tune(all, (options.scenes + 1) / 2);
   const std::vector<CleanScene> clean = random_scenes(kTestSeed, options.scenes);
   for (const int noise : kNoises) {

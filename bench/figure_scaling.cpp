@@ -36,12 +36,12 @@ Size prepare(int width, int height) {
   scene.camera.height = height;
   scene.camera.sigma_counts = kSigmaCounts;
   Size size;
-  size.counts = std::move(must(sim::render(scene, 0)).counts);
+  size.counts = std::move(value_or_exit(sim::render(scene, 0)).counts);
   for (const auto& preset : kPresets) {
     for (const int threads : {1, 2}) {
       DetectorOptions options = preset_options(preset.value);
       options.threads = threads;
-      size.all.push_back({preset.value, threads, must(Detector::create(options)), {}, {}});
+      size.all.push_back({preset.value, threads, value_or_exit(Detector::create(options)), {}, {}});
     }
   }
   return size;
@@ -49,8 +49,8 @@ Size prepare(int width, int height) {
 
 void run_round(Size& size) {
   for (Runs& runs : size.all) {
-    must(runs.detector.detect(size.counts));  // its memory was last touched a round ago
-    const Detection& detection = *must(runs.detector.detect(size.counts));
+    value_or_exit(runs.detector.detect(size.counts));  // its memory was last touched a round ago
+    const Detection& detection = *value_or_exit(runs.detector.detect(size.counts));
     for (const Stage& stage : kStages) {
       runs.stages_ms[stage.name].push_back(detection.ms.*stage.ms);
     }

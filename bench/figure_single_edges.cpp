@@ -23,11 +23,11 @@ constexpr int kEmptyFrames = 40;        // that peers are set on
 
 // Without dead pixels and stripes, as our presets remove them: peers would find those first.
 Image<std::uint16_t> corrected(ImageView<const std::uint16_t> counts) {
-  NucOptions options;
+  BadPixelOptions options;
   options.stripes = true;
-  FrameCorrector corrector(options);
+  Preprocessor preprocessor(options);
   const double sigma = NoiseEstimator().measure(counts).sigma_counts;
-  const auto view = corrector.run(counts, sigma, *make_runner(1));
+  const auto view = preprocessor.run(counts, sigma, *make_runner(1));
   Image<std::uint16_t> copy(view.width(), view.height());
   copy_pixels(view, copy.view());
   return copy;
@@ -40,7 +40,7 @@ struct Entrant {
   WholeDetector run;
 };
 
-double false_contours(const Contender& peer, std::size_t setting,
+double false_contours(const Competitor& peer, std::size_t setting,
                       const std::vector<Image<std::uint16_t>>& frames) {
   std::size_t contours = 0;
   for (const auto& frame : frames) {
@@ -52,7 +52,7 @@ double false_contours(const Contender& peer, std::size_t setting,
 }
 
 // For each front, the first finder that is quiet enough on frames of noise.
-void add_quiet_settings(const Contender& peer, const std::vector<Image<std::uint16_t>>& frames,
+void add_quiet_settings(const Competitor& peer, const std::vector<Image<std::uint16_t>>& frames,
                         std::vector<Entrant>& entrants) {
   for (std::size_t front = 0; front < peer.fronts.size(); ++front) {
     for (std::size_t finder = 0; finder < peer.finders.size(); ++finder) {
@@ -79,7 +79,7 @@ std::vector<Entrant> entrants() {
   for (std::uint64_t seed = 1; seed <= kEmptyFrames; ++seed) {
     frames.push_back(corrected(empty_frame(Emptiness::kStripes, kSigmaCounts, 7000 + seed)));
   }
-  for (const Contender& peer : peers_for_detection()) {
+  for (const Competitor& peer : peers_for_detection()) {
     add_quiet_settings(peer, frames, all);
   }
   return all;
@@ -103,7 +103,7 @@ void measure_single_edges(const BenchOptions& options) {
   const int trials = 3 * options.scenes;
   const std::vector<Entrant> all = entrants();
   Csv csv(options.out + "/single_edges.csv",
-          "contender,setting,length_px,contrast_sigmas,trials,found");
+          "competitor,setting,length_px,contrast_sigmas,trials,found");
   for (const int length : kLengths) {
     for (const double contrast : kContrasts) {
       std::vector<int> found(all.size());

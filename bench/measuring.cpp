@@ -4,25 +4,25 @@
 #include <array>
 #include <chrono>
 
-#include "must.hpp"
+#include "value_or_exit.hpp"
 
 namespace thermedge::bench {
 namespace {
 
 eval::MatchCounts matched(ImageView<const std::uint8_t> map, const eval::TruthMaps& truth) {
   constexpr std::array kAnyEdge = {1};
-  return must(eval::count_matches(map, truth, kAnyEdge, {})).front();
+  return value_or_exit(eval::count_matches(map, truth, kAnyEdge, {})).front();
 }
 
 // One frame with every setting; each front runs once.
-std::vector<eval::MatchCounts> with_all_settings(const Contender& contender,
+std::vector<eval::MatchCounts> with_all_settings(const Competitor& competitor,
                                                  const TestFrame& frame) {
   std::vector<eval::MatchCounts> counts;
   Image<std::uint8_t> levels(frame.counts.width(), frame.counts.height());
   Image<std::uint8_t> map(frame.counts.width(), frame.counts.height());
-  for (const Front& front : contender.fronts) {
+  for (const FrontEnd& front : competitor.fronts) {
     front.run(frame.counts, levels);
-    for (const Finder& finder : contender.finders) {
+    for (const Finder& finder : competitor.finders) {
       finder.run(levels, map);
       counts.push_back(matched(map, frame.truth));
     }
@@ -43,17 +43,17 @@ eval::TruthMaps copy(const eval::TruthMaps& truth) {
 
 }  // namespace
 
-Performance measure(const Contender& contender, std::size_t setting,
+Performance measure(const Competitor& competitor, std::size_t setting,
                     const std::vector<TestFrame>& frames) {
   Performance performance;
   std::vector<double> ms;
   for (const TestFrame& frame : frames) {
     Image<std::uint8_t> map(frame.counts.width(), frame.counts.height());
     if (ms.empty()) {
-      contender.run(setting, frame.counts, map);  // memory is taken and caches are filled
+      competitor.run(setting, frame.counts, map);  // memory is taken and caches are filled
     }
     const auto start = std::chrono::steady_clock::now();
-    contender.run(setting, frame.counts, map);
+    competitor.run(setting, frame.counts, map);
     ms.push_back(std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
                      .count());
     performance.counts += matched(map, frame.truth);
@@ -62,16 +62,16 @@ Performance measure(const Contender& contender, std::size_t setting,
   return performance;
 }
 
-std::size_t best_setting(const Contender& contender, const std::vector<TestFrame>& frames) {
-  if (contender.settings() == 1) {
+std::size_t best_setting(const Competitor& competitor, const std::vector<TestFrame>& frames) {
+  if (competitor.settings() == 1) {
     return 0;
   }
   std::vector<std::vector<eval::MatchCounts>> of_frames(frames.size());
   make_runner(0)->run(static_cast<int>(frames.size()), [&](int i) {
     const auto index = static_cast<std::size_t>(i);
-    of_frames[index] = with_all_settings(contender, frames[index]);
+    of_frames[index] = with_all_settings(competitor, frames[index]);
   });
-  std::vector<eval::MatchCounts> sums(contender.settings());
+  std::vector<eval::MatchCounts> sums(competitor.settings());
   for (const auto& counts : of_frames) {
     for (std::size_t setting = 0; setting < sums.size(); ++setting) {
       sums[setting] += counts[setting];

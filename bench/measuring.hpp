@@ -1,10 +1,10 @@
-// How good contenders are on frames, and which setting of a peer is best.
+// How good competitors are on frames, and which setting of a peer is best.
 #pragma once
 
 #include <cstddef>
 #include <vector>
 
-#include "contenders.hpp"
+#include "competitors.hpp"
 #include "test_frames.hpp"
 #include "thermedge/eval/counts.hpp"
 
@@ -14,11 +14,11 @@ struct Performance {
   eval::MatchCounts counts;  // summed over the frames
   double ms = 0;             // median time of a frame on one thread
 };
-[[nodiscard]] Performance measure(const Contender& contender, std::size_t setting,
+[[nodiscard]] Performance measure(const Competitor& competitor, std::size_t setting,
                                   const std::vector<TestFrame>& frames);
 
 // The setting with the best F over these frames (ties: the first).
-[[nodiscard]] std::size_t best_setting(const Contender& contender,
+[[nodiscard]] std::size_t best_setting(const Competitor& competitor,
                                        const std::vector<TestFrame>& frames);
 
 // Random scenes `first_seed`, first_seed + 1 ... with their noise.

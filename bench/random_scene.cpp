@@ -121,7 +121,7 @@ void Painting::render_row(double y, int margin_px, std::vector<double>& crossing
   }
 }
 
-Image<float> Painting::render(Runner& runner) const {
+Image<float> Painting::render(ParallelRunner& runner) const {
   constexpr int kPerFine = kSamples / sim::kSubpixels;
   sim::Optics optics(kOpticsPx, 0);
   const int margin = optics.margin_px();

@@ -41,7 +41,7 @@ class Painting {
   void add(Polygon outline, double step, double slope_x, double slope_y);
 
   // Behind optics and pixel aperture.
-  [[nodiscard]] Image<float> render(Runner& runner) const;
+  [[nodiscard]] Image<float> render(ParallelRunner& runner) const;
   // Visible outlines in pieces of up to 4 px with the step across each.
   [[nodiscard]] eval::CurveFrame edges() const;
 

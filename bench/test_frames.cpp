@@ -6,7 +6,6 @@
 #include <numbers>
 #include <utility>
 
-#include "must.hpp"
 #include "optics.hpp"
 #include "portable.hpp"
 #include "sensor.hpp"
@@ -14,6 +13,7 @@
 #include "thermedge/eval/thinning.hpp"
 #include "thermedge/io/source.hpp"
 #include "thermedge/sim/scene.hpp"
+#include "value_or_exit.hpp"
 
 namespace thermedge::bench {
 namespace {
@@ -102,7 +102,7 @@ Image<std::uint16_t> expose(ImageView<const float> clean, const Disturbance& dis
   camera.sigma_counts = disturbance.sigma_counts;
   camera.column_sigma_counts = disturbance.stripes ? disturbance.sigma_counts / 3 : 0;
   camera.row_sigma_counts = disturbance.stripes ? disturbance.sigma_counts / 4 : 0;
-  camera.dead_pixels = disturbance.dead_pixels;
+  camera.bad_pixels = disturbance.bad_pixels;
   Image<std::uint16_t> counts(clean.width(), clean.height());
   sim::Sensor(camera, seed).expose(clean, 0, counts, *make_runner(1));
   return counts;
@@ -128,7 +128,7 @@ TestFrame simulated(const std::string& scene, double sigma_counts, std::uint64_t
   options.camera.sigma_counts = sigma_counts;
   options.camera.column_sigma_counts = sigma_counts / 3;
   options.camera.row_sigma_counts = sigma_counts / 4;
-  sim::TrueFrame frame = must(sim::render(options, 0));
+  sim::TrueFrame frame = value_or_exit(sim::render(options, 0));
   eval::CurveFrame curves;
   curves.width = frame.counts.width();
   curves.height = frame.counts.height();
@@ -166,13 +166,13 @@ std::vector<std::string> conditions_of(const std::string& directory) {
 
 std::vector<TestFrame> prepared(const std::string& directory, const std::string& condition,
                                 int most) {
-  const auto source = must(io::open_files({directory + "/raw/" + condition}, {}));
-  const auto truth = must(eval::TruthSet::open(directory + "/gt", {}));
+  const auto source = value_or_exit(io::open_files({directory + "/raw/" + condition}, {}));
+  const auto truth = value_or_exit(eval::GroundTruthSet::open(directory + "/gt", {}));
   std::vector<TestFrame> frames;
   io::Frame frame;
-  while (static_cast<int>(frames.size()) < most && must(source->next(frame))) {
+  while (static_cast<int>(frames.size()) < most && value_or_exit(source->next(frame))) {
     TestFrame test;
-    test.truth = std::move(must(truth.read(frame.stem, frames.size())).maps);
+    test.truth = std::move(value_or_exit(truth.read(frame.stem, frames.size())).maps);
     test.counts = std::move(frame.counts);
     frames.push_back(std::move(test));
     frame = {};

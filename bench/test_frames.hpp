@@ -20,7 +20,7 @@ struct TestFrame {
 struct Disturbance {
   double sigma_counts = 0;  // temporal noise
   bool stripes = true;
-  int dead_pixels = 5;
+  int bad_pixels = 5;
 };
 
 inline constexpr double kRangeCounts = 130;  // of random scenes

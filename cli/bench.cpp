@@ -48,13 +48,13 @@ struct BenchCommand : DetectorCommand {
   bool json = false;
 
   [[nodiscard]] int time_stages() const;
-  [[nodiscard]] std::vector<io::Frame> read(const io::SourceOptions& source, Report& report) const;
+  [[nodiscard]] std::vector<io::Frame> read(const io::SourceOptions& source, Console& report) const;
   [[nodiscard]] Result<BenchResult> time(const std::vector<io::Frame>& frames,
                                          const DetectorOptions& options) const;
 };
 
 // Frames of one size, in memory, so that files are not timed.
-std::vector<io::Frame> BenchCommand::read(const io::SourceOptions& source, Report& report) const {
+std::vector<io::Frame> BenchCommand::read(const io::SourceOptions& source, Console& report) const {
   std::vector<io::Frame> frames;
   const auto input = open_inputs(common.inputs, source);
   while (frames.size() < static_cast<std::size_t>(most_frames)) {
@@ -149,7 +149,7 @@ void print_table(BenchResult& result) {
 }
 
 int BenchCommand::time_stages() const {
-  return run([&](const DetectorOptions& options, const io::SourceOptions& source, Report& report) {
+  return run([&](const DetectorOptions& options, const io::SourceOptions& source, Console& report) {
     if (!common.output.empty()) {
       return report.fail({ErrorCode::kInvalidArgument,
                           "-o: bench prints on standard output; redirect it to a file"});

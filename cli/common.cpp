@@ -116,7 +116,7 @@ Result<double> parse_sigma(const std::string& text) {
   return sigma;
 }
 
-int for_each_frame(const CommonOptions& common, const io::SourceOptions& source, Report& report,
+int for_each_frame(const CommonOptions& common, const io::SourceOptions& source, Console& report,
                    const std::function<Status(const io::Frame&)>& handle) {
   const auto frames = open_inputs(common.inputs, source);
   io::Frame frame;

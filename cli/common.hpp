@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "report.hpp"
+#include "console.hpp"
 #include "thermedge/io/source.hpp"
 #include "thermedge/options.hpp"
 
@@ -20,7 +20,7 @@ struct RunOptions {
   bool json_log = false;
 
   void add_to(CLI::App& app);
-  [[nodiscard]] Report report() const { return {quiet, json_log}; }
+  [[nodiscard]] Console report() const { return {quiet, json_log}; }
 };
 
 // INPUT..., -o, --raw-size, --raw-format, --simd, and those above.
@@ -53,7 +53,7 @@ struct ConfigOptions {
 // Calls `handle(frame)` for each frame of the inputs; an error (of reading or handling) is reported
 // and the next frame follows. Returns the exit code.
 [[nodiscard]] int for_each_frame(const CommonOptions& common, const io::SourceOptions& source,
-                                 Report& report,
+                                 Console& report,
                                  const std::function<Status(const io::Frame&)>& handle);
 
 // Where results of several frames go: DIR/<kind>/<stem><ending>, DIR/<stem><ending> where kind

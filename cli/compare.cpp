@@ -77,7 +77,8 @@ Status write(const figures::Comparison& made, const std::vector<std::string>& wa
 }
 
 int CompareCommand::draw() const {
-  return run([&](const DetectorOptions& detector, const io::SourceOptions& source, Report& report) {
+  return run([&](const DetectorOptions& detector, const io::SourceOptions& source,
+                 Console& report) {
     const auto wanted = wanted_maps();
     if (!wanted) {
       return report.fail(wanted.error());

@@ -25,7 +25,7 @@ void EdgeCommand::add_to(CLI::App& app) {
 template <class Step>
 int run(const EdgeCommand& command, Step&& step) {
   return command.run([&](const DetectorOptions& options, const io::SourceOptions& source,
-                         Report& report) {
+                         Console& report) {
     auto writer = ResultWriter::create(command.common.output, command.write);
     if (!writer) {
       return report.fail(writer.error());

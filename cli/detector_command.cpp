@@ -75,7 +75,7 @@ Result<DetectorOptions> DetectorCommand::options() const {
 }
 
 int DetectorCommand::run(const Work& work) const {
-  Report report = common.report();
+  Console report = common.report();
   const auto chosen = options();
   if (!chosen) {
     return report.fail(chosen.error());

@@ -31,7 +31,7 @@ struct DetectorCommand {
 
   // Prints the options where --dump-config asks for it; else runs `work`. Says what is wrong with
   // the arguments. Returns the exit code.
-  using Work = std::function<int(const DetectorOptions&, const io::SourceOptions&, Report&)>;
+  using Work = std::function<int(const DetectorOptions&, const io::SourceOptions&, Console&)>;
   [[nodiscard]] int run(const Work& work) const;
 };
 

@@ -5,8 +5,8 @@
 
 #include "commands.hpp"
 #include "common.hpp"
+#include "console.hpp"
 #include "evaluation_page.hpp"
-#include "report.hpp"
 #include "thermedge/eval/evaluate.hpp"
 #include "thermedge/io/write.hpp"
 
@@ -26,19 +26,21 @@ struct EvaluateCommand : RunOptions {
   [[nodiscard]] int run();
 
  private:
-  [[nodiscard]] Result<std::string> with_truth(const eval::FoundSet& set, Report& report) const;
-  [[nodiscard]] Result<std::string> alone(const eval::FoundSet& set, Report& report) const;
+  [[nodiscard]] Result<std::string> with_truth(const eval::PredictionSet& set,
+                                               Console& report) const;
+  [[nodiscard]] Result<std::string> alone(const eval::PredictionSet& set, Console& report) const;
   [[nodiscard]] bool as_json() const { return json || output.ends_with(".json"); }
 };
 
-void report_all(const std::vector<Error>& errors, Report& report) {
+void report_all(const std::vector<Error>& errors, Console& report) {
   for (const Error& error : errors) {
     report.error(error.message + "; left out");
   }
 }
 
-Result<std::string> EvaluateCommand::with_truth(const eval::FoundSet& set, Report& report) const {
-  const auto truth_set = eval::TruthSet::open(truth, {least_contrast_counts, {}});
+Result<std::string> EvaluateCommand::with_truth(const eval::PredictionSet& set,
+                                                Console& report) const {
+  const auto truth_set = eval::GroundTruthSet::open(truth, {least_contrast_counts, {}});
   if (!truth_set) {
     return tl::unexpected(truth_set.error());
   }
@@ -51,9 +53,9 @@ Result<std::string> EvaluateCommand::with_truth(const eval::FoundSet& set, Repor
       });
 }
 
-Result<std::string> EvaluateCommand::alone(const eval::FoundSet& set, Report& report) const {
-  return eval::evaluate_alone(set, options, *make_runner(threads))
-      .map([&](const eval::LoneEvaluation& evaluation) {
+Result<std::string> EvaluateCommand::alone(const eval::PredictionSet& set, Console& report) const {
+  return eval::evaluate_without_truth(set, options, *make_runner(threads))
+      .map([&](const eval::TruthlessEvaluation& evaluation) {
         report_all(evaluation.errors, report);
         return as_json() ? eval::evaluation_to_json(evaluation, found)
                          : found + ": " + evaluation_page(evaluation, options, empty);
@@ -61,14 +63,14 @@ Result<std::string> EvaluateCommand::alone(const eval::FoundSet& set, Report& re
 }
 
 int EvaluateCommand::run() {
-  Report report = this->report();
+  Console report = this->report();
   if (empty && !truth.empty()) {
     return report.fail({ErrorCode::kInvalidArgument, "--empty: empty scenes have no GT"});
   }
   options.count.thin = !no_thin;
   options.progress = [&report](std::size_t done, std::size_t all) { report.progress(done, all); };
-  const auto set = eval::FoundSet::open(found);
-  const Result<std::string> text = set.and_then([&](const eval::FoundSet& opened) {
+  const auto set = eval::PredictionSet::open(found);
+  const Result<std::string> text = set.and_then([&](const eval::PredictionSet& opened) {
     return truth.empty() ? alone(opened, report) : with_truth(opened, report);
   });
   if (!text) {

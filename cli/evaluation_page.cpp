@@ -132,7 +132,7 @@ std::string evaluation_page(const eval::Evaluation& evaluation,
   return page.take();
 }
 
-std::string evaluation_page(const eval::LoneEvaluation& evaluation,
+std::string evaluation_page(const eval::TruthlessEvaluation& evaluation,
                             const eval::EvaluationOptions& options, bool empty) {
   Page page;
   page.line(fmt::format("{}, without truth, {}", frames_text(evaluation.frames),

@@ -11,7 +11,7 @@ namespace thermedge::cli {
 [[nodiscard]] std::string evaluation_page(const eval::Evaluation& evaluation,
                                           const eval::EvaluationOptions& options);
 // `empty`: the scenes hold nothing, so what was found is a false alarm.
-[[nodiscard]] std::string evaluation_page(const eval::LoneEvaluation& evaluation,
+[[nodiscard]] std::string evaluation_page(const eval::TruthlessEvaluation& evaluation,
                                           const eval::EvaluationOptions& options, bool empty);
 
 }  // namespace thermedge::cli

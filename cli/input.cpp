@@ -49,7 +49,7 @@ class SimSource final : public io::FrameSource {
   std::string stem_;
   int frames_;
   sim::Renderer renderer_;
-  std::unique_ptr<Runner> runner_;
+  std::unique_ptr<ParallelRunner> runner_;
   int index_ = 0;
 };
 

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "commands.hpp"
-#include "report.hpp"
+#include "console.hpp"
 #include "thermedge/simd.hpp"
 
 namespace thermedge::cli {

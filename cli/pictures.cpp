@@ -61,15 +61,15 @@ struct ScaleCommand {
   CommonOptions common;
   std::optional<double> gain;
   bool stable = false;
-  StableViewOptions view;
+  StableGreyScaleOptions view;
 
   [[nodiscard]] int run() const;
 
  private:
   [[nodiscard]] Status write(const io::Frame& frame, ImageView<std::uint8_t> levels,
                              PictureOutput& output) const;
-  [[nodiscard]] int run_algorithm1(const io::SourceOptions& source, Report& report) const;
-  [[nodiscard]] int run_stable(const io::SourceOptions& source, Report& report) const;
+  [[nodiscard]] int run_algorithm1(const io::SourceOptions& source, Console& report) const;
+  [[nodiscard]] int run_stable(const io::SourceOptions& source, Console& report) const;
 };
 
 Status ScaleCommand::write(const io::Frame& frame, ImageView<std::uint8_t> levels,
@@ -79,8 +79,8 @@ Status ScaleCommand::write(const io::Frame& frame, ImageView<std::uint8_t> level
   });
 }
 
-int ScaleCommand::run_algorithm1(const io::SourceOptions& source, Report& report) const {
-  ScaleOptions options;
+int ScaleCommand::run_algorithm1(const io::SourceOptions& source, Console& report) const {
+  GreyScaleOptions options;
   options.gain = gain.value_or(options.gain);
   if (const Status status = check_ranges(options, "scale."); !status) {
     return report.fail(status.error());
@@ -95,19 +95,19 @@ int ScaleCommand::run_algorithm1(const io::SourceOptions& source, Report& report
   });
 }
 
-std::string_view event_name(ViewEvent event) {
+std::string_view event_name(GreyScaleEvent event) {
   switch (event) {
-    case ViewEvent::kNone:
+    case GreyScaleEvent::kNone:
       break;
-    case ViewEvent::kStart:
+    case GreyScaleEvent::kStart:
       return "start";
-    case ViewEvent::kSceneCut:
+    case GreyScaleEvent::kSceneCut:
       return "scene_cut";
   }
   return "";
 }
 
-std::string state_line(const io::Frame& frame, std::int64_t index, const ViewState& state) {
+std::string state_line(const io::Frame& frame, std::int64_t index, const GreyScaleState& state) {
   const std::string_view event = event_name(state.event);
   const nlohmann::ordered_json line = {
       {"source", frame.source},
@@ -121,20 +121,20 @@ std::string state_line(const io::Frame& frame, std::int64_t index, const ViewSta
 }
 
 // What the view did with each frame is written even where some frames were bad.
-int ScaleCommand::run_stable(const io::SourceOptions& source, Report& report) const {
-  StableViewOptions options = view;
+int ScaleCommand::run_stable(const io::SourceOptions& source, Console& report) const {
+  StableGreyScaleOptions options = view;
   options.gain = gain.value_or(options.gain);
   if (const Status status = check_options(options); !status) {
     return report.fail(status.error());
   }
   PictureOutput output(common.output);
-  StableView stable_view(options);
+  StableGreyScale stable_grey_scale(options);
   Image<std::uint8_t> levels;
   std::string lines;
   std::int64_t index = 0;
   const int code = for_each_frame(common, source, report, [&](const io::Frame& frame) -> Status {
     levels.resize(frame.counts.width(), frame.counts.height());
-    return stable_view.run(frame.counts, levels).and_then([&](const ViewState& state) {
+    return stable_grey_scale.run(frame.counts, levels).and_then([&](const GreyScaleState& state) {
       lines += state_line(frame, index++, state);
       return write(frame, levels, output);
     });
@@ -144,7 +144,7 @@ int ScaleCommand::run_stable(const io::SourceOptions& source, Report& report) co
 }
 
 int ScaleCommand::run() const {
-  Report report = common.report();
+  Console report = common.report();
   const auto source = common.prepare();
   if (!source) {
     return report.fail(source.error());
@@ -175,9 +175,9 @@ class CountsDenoiser {
 
  private:
   double told_sigma_;
-  std::unique_ptr<Runner> runner_;
+  std::unique_ptr<ParallelRunner> runner_;
   NoiseEstimator estimator_;
-  FrameCorrector corrector_;
+  Preprocessor corrector_;
   Denoiser denoiser_;
   Image<std::uint16_t> counts_;
   Image<float> working_;
@@ -219,7 +219,7 @@ struct DenoiseCommand {
   }
 
   int run() const {
-    Report report = common.report();
+    Console report = common.report();
     DetectorOptions chosen;
     if (const Status status = options(chosen); !status) {
       return report.fail(status.error());

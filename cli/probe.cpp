@@ -34,7 +34,7 @@ struct ProbeCommand {
 };
 
 int ProbeCommand::run() const {
-  Report report = common.report();
+  Console report = common.report();
   const auto source = common.prepare();
   if (!source) {
     return report.fail(source.error());

@@ -53,7 +53,7 @@ class Page {
     range();
     noise();
     stripes();
-    dead_pixels();
+    bad_pixels();
     clipping();
     sequence();
     suggestions();
@@ -93,7 +93,7 @@ class Page {
   void noise();
   void fixed_pattern();
   void stripes();
-  void dead_pixels();
+  void bad_pixels();
   void clipping();
   void sequence();
   void suggestions();
@@ -173,16 +173,16 @@ void Page::stripes() {
       fmt::format("level stripes: {}", grade(kStripeGrades, report_.row_sigma_counts / sigma)));
 }
 
-void Page::dead_pixels() {
+void Page::bad_pixels() {
   heading("Dead pixels");
-  if (!report_.dead_pixels) {
-    row("flagged", fmt::format("{:.1f} a frame", report_.passing_dead_pixels),
+  if (!report_.bad_pixels) {
+    row("flagged", fmt::format("{:.1f} a frame", report_.passing_bad_pixels),
         "replaced by detect; 3 frames would tell if they last");
     return;
   }
-  row("lasting", fmt::format("{}", *report_.dead_pixels),
-      *report_.dead_pixels == 0 ? "none: good" : "replaced by detect on every frame");
-  row("passing", fmt::format("{:.1f} a frame", report_.passing_dead_pixels),
+  row("lasting", fmt::format("{}", *report_.bad_pixels),
+      *report_.bad_pixels == 0 ? "none: good" : "replaced by detect on every frame");
+  row("passing", fmt::format("{:.1f} a frame", report_.passing_bad_pixels),
       "flagged now and then: flicker, or points of the scene");
 }
 

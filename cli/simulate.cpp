@@ -36,7 +36,7 @@ struct SimulateCommand : RunOptions {
   [[nodiscard]] Result<sim::SceneOptions> options() const;
   [[nodiscard]] int run() const;
   [[nodiscard]] Status write_frame(const sim::TrueFrame& frame, OutputDirectory& directory) const;
-  [[nodiscard]] Status write_all(sim::Renderer& renderer, Report& report) const;
+  [[nodiscard]] Status write_all(sim::Renderer& renderer, Console& report) const;
 };
 
 // The camera first, then what changes it, --set last.
@@ -100,7 +100,7 @@ Status SimulateCommand::write_frame(const sim::TrueFrame& frame, OutputDirectory
   return status;
 }
 
-Status SimulateCommand::write_all(sim::Renderer& renderer, Report& report) const {
+Status SimulateCommand::write_all(sim::Renderer& renderer, Console& report) const {
   const auto runner = make_runner(threads);
   OutputDirectory directory(output);
   std::string truth;
@@ -131,7 +131,7 @@ Status SimulateCommand::write_all(sim::Renderer& renderer, Report& report) const
 }
 
 int SimulateCommand::run() const {
-  Report report = this->report();
+  Console report = this->report();
   for (const std::string& kind : split_list(write)) {
     if (std::find(kKinds.begin(), kKinds.end(), kind) == kKinds.end()) {
       report.error("--write " + kind + ": should be some of counts, clean, truth, depth");

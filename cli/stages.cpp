@@ -28,7 +28,7 @@ Status write(const figures::StagesFigures& made, FigureOutput& output) {
 }
 
 int StagesCommand::draw() const {
-  return run([&](const DetectorOptions& options, const io::SourceOptions& source, Report& report) {
+  return run([&](const DetectorOptions& options, const io::SourceOptions& source, Console& report) {
     auto output = FigureOutput::create(common, format);
     if (!output) {
       return report.fail(output.error());

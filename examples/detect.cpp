@@ -30,7 +30,7 @@ int main(int argc, char** argv) {
        (*detection)
            ->edges.kept_edges()
            .first(std::min<std::size_t>(10, (*detection)->edges.kept))) {
-    std::printf("edge %d: %.0f px, %.0f counts of contrast, %s\n", edge.id, edge.length_px,
+    std::printf("edge %d: %.0f px, %.0f counts of contrast, %s\n", edge.index, edge.length_px,
                 edge.contrast_counts, edge.closed ? "closed" : "open");
   }
 }

@@ -1,7 +1,7 @@
 // Prewitt, Roberts, Sobel, LoG and Canny of this library, as MATLAB has them.
 #pragma once
 
-#include "../must.hpp"
+#include "../value_or_exit.hpp"
 #include "thermedge/stages/classical.hpp"
 
 namespace thermedge::bench {
@@ -14,7 +14,7 @@ inline void classical(ImageView<const std::uint8_t> levels, ClassicalMethod meth
       threshold;
   Image<float> values(levels.width(), levels.height());
   copy_pixels(levels, values.view());
-  must(ClassicalDetector(options).run(values, method, map, *make_runner(1)));
+  value_or_exit(ClassicalDetector(options).run(values, method, map, *make_runner(1)));
 }
 
 }  // namespace thermedge::bench

@@ -16,7 +16,7 @@ const std::vector<double>& sigma_limits() {
 
 struct FrameFigures {
   std::vector<MatchCounts> counts;
-  Merit merit;
+  PrattFom merit;
   MapStructure structure;
   std::optional<CurveFigures> curves;
   std::vector<EdgeShare> edges;  // of the truth, with curves
@@ -37,7 +37,7 @@ void compare_curves(const CurveFrame& found, const CurveFrame& truth,
   }
 }
 
-void judge_at(double threshold, const FoundEdges& found, const TrueEdges& truth,
+void judge_at(double threshold, const Prediction& found, const TrueEdges& truth,
               const EvaluationOptions& options, FrameFigures& figures) {
   Image<std::uint8_t> map;
   thin_at(found.map.view(), threshold, map);
@@ -82,8 +82,8 @@ void add_up(std::vector<FrameFigures> frames, const EvaluationOptions& options,
 
 class Judge {
  public:
-  Judge(const FoundSet& found, const TruthSet& truth, const EvaluationOptions& options,
-        Runner& runner)
+  Judge(const PredictionSet& found, const GroundTruthSet& truth, const EvaluationOptions& options,
+        ParallelRunner& runner)
       : found_(found), truth_(truth), options_(options), runner_(runner) {}
 
   Result<Evaluation> run() {
@@ -95,7 +95,7 @@ class Judge {
     // With a single threshold there is nothing to choose, so one reading of the files will do.
     const auto only = static_cast<double>(evaluation.thresholds.front());
     auto results =
-        for_each([&](const FoundEdges& found, const TrueEdges& truth, FrameFigures& figures) {
+        for_each([&](const Prediction& found, const TrueEdges& truth, FrameFigures& figures) {
           return count_matches(found.map.view(), truth.maps, evaluation.thresholds, options_.count)
               .map([&](std::vector<MatchCounts> counts) {
                 figures.counts = std::move(counts);
@@ -152,7 +152,7 @@ class Judge {
   // Frames that failed the sweep fail here again, and their errors are known.
   std::vector<FrameFigures> judge_swept(double threshold) {
     auto results =
-        for_each([&](const FoundEdges& found, const TrueEdges& truth, FrameFigures& figures) {
+        for_each([&](const Prediction& found, const TrueEdges& truth, FrameFigures& figures) {
           // Maps of another size than their truth have no figures.
           return count_matches(found.map.view(), truth.maps, {}, options_.count).map([&](auto&&) {
             judge_at(threshold, found, truth, options_, figures);
@@ -162,24 +162,24 @@ class Judge {
     return take_good(std::move(results), known);
   }
 
-  const FoundSet& found_;
-  const TruthSet& truth_;
+  const PredictionSet& found_;
+  const GroundTruthSet& truth_;
   const EvaluationOptions& options_;
-  Runner& runner_;
+  ParallelRunner& runner_;
 };
 
 }  // namespace
 
-Result<Evaluation> evaluate(const FoundSet& found, const TruthSet& truth,
-                            const EvaluationOptions& options, Runner& runner) {
+Result<Evaluation> evaluate(const PredictionSet& found, const GroundTruthSet& truth,
+                            const EvaluationOptions& options, ParallelRunner& runner) {
   if (Status status = check(options); !status) {
     return tl::unexpected(status.error());
   }
   if (Status status = truth.check_frames(found.names().size()); !status) {
     return tl::unexpected(status.error());
   }
-  return io::without_throwing("evaluation",
-                              [&] { return Judge(found, truth, options, runner).run(); });
+  return io::catch_bad_alloc("evaluation",
+                             [&] { return Judge(found, truth, options, runner).run(); });
 }
 
 }  // namespace thermedge::eval

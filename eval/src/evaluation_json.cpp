@@ -84,7 +84,7 @@ std::string evaluation_to_json(const Evaluation& evaluation, const std::string& 
                {"left_out", messages(evaluation.errors)}});
 }
 
-std::string evaluation_to_json(const LoneEvaluation& evaluation, const std::string& found) {
+std::string evaluation_to_json(const TruthlessEvaluation& evaluation, const std::string& found) {
   const bool repeated = evaluation.repeatability.points > 0;
   return line({{"found", found},
                {"frames", evaluation.frames},

@@ -61,8 +61,8 @@ Result<CurveFrame> read_curves(const std::string& path, const Limits& limits) {
   });
 }
 
-FoundEdges drawn(CurveFrame curves) {
-  FoundEdges edges;
+Prediction drawn(CurveFrame curves) {
+  Prediction edges;
   draw_curves(curves, 0, edges.map);
   edges.curves = std::move(curves);
   return edges;
@@ -119,8 +119,8 @@ Result<Image<std::uint8_t>> read_edge_map(const std::string& path, const Limits&
       });
 }
 
-Result<FoundSet> FoundSet::open(const std::string& path, const Limits& limits) {
-  FoundSet set;
+Result<PredictionSet> PredictionSet::open(const std::string& path, const Limits& limits) {
+  PredictionSet set;
   set.limits_ = limits;
   if (path.ends_with(".jsonl")) {
     auto lines = JsonLines::read(path, limits);
@@ -159,20 +159,20 @@ Result<FoundSet> FoundSet::open(const std::string& path, const Limits& limits) {
   return set;
 }
 
-Result<FoundEdges> FoundSet::read(std::size_t index) const {
+Result<Prediction> PredictionSet::read(std::size_t index) const {
   const std::string& label = lines_ ? names_[index] : paths_[index];
-  return io::without_throwing(label, [&]() -> Result<FoundEdges> {
+  return io::catch_bad_alloc(label, [&]() -> Result<Prediction> {
     if (!curves_) {
       return read_edge_map(paths_[index], limits_).map([](Image<std::uint8_t> map) {
-        return FoundEdges{std::move(map), std::nullopt};
+        return Prediction{std::move(map), std::nullopt};
       });
     }
     return (lines_ ? lines_->frame(index) : read_curves(paths_[index], limits_)).map(drawn);
   });
 }
 
-Result<TruthSet> TruthSet::open(const std::string& path, const Options& options) {
-  TruthSet set;
+Result<GroundTruthSet> GroundTruthSet::open(const std::string& path, const Options& options) {
+  GroundTruthSet set;
   set.path_ = path;
   set.options_ = options;
   set.directory_ = is_directory(path);
@@ -198,7 +198,7 @@ Result<TruthSet> TruthSet::open(const std::string& path, const Options& options)
   return set;
 }
 
-Status TruthSet::check_frames(std::size_t count) const {
+Status GroundTruthSet::check_frames(std::size_t count) const {
   const std::size_t there = lines_ ? lines_->size() : directory_ ? count : 1;
   if (there == count) {
     return {};
@@ -208,7 +208,7 @@ Status TruthSet::check_frames(std::size_t count) const {
                                           std::to_string(count));
 }
 
-Result<TrueEdges> TruthSet::from_curves(Result<CurveFrame> curves) const {
+Result<TrueEdges> GroundTruthSet::from_curves(Result<CurveFrame> curves) const {
   return std::move(curves).map([&](CurveFrame frame) {
     TrueEdges edges;
     edges.maps.annotators.push_back(thin_map(frame, options_.least_contrast_counts));
@@ -220,7 +220,7 @@ Result<TrueEdges> TruthSet::from_curves(Result<CurveFrame> curves) const {
   });
 }
 
-Result<TrueEdges> TruthSet::read_file(const std::string& path) const {
+Result<TrueEdges> GroundTruthSet::read_file(const std::string& path) const {
   const std::string ending = io::ending_of(path);
   const auto with_maps = [](TruthMaps maps) { return TrueEdges{std::move(maps), std::nullopt}; };
   if (ending == ".npz") {
@@ -240,8 +240,8 @@ Result<TrueEdges> TruthSet::read_file(const std::string& path) const {
   });
 }
 
-Result<TrueEdges> TruthSet::read(const std::string& name, std::size_t index) const {
-  return io::without_throwing(path_, [&]() -> Result<TrueEdges> {
+Result<TrueEdges> GroundTruthSet::read(const std::string& name, std::size_t index) const {
+  return io::catch_bad_alloc(path_, [&]() -> Result<TrueEdges> {
     if (lines_) {
       return from_curves(lines_->frame(index));
     }

@@ -7,7 +7,7 @@ namespace thermedge::eval {
 namespace {
 
 // The values that occur in the first few maps: whether they are binary.
-std::bitset<256> values_of(const FoundSet& found) {
+std::bitset<256> values_of(const PredictionSet& found) {
   constexpr std::size_t kLookedAt = 5;
   std::bitset<256> values;
   for (std::size_t i = 0; i < std::min(found.names().size(), kLookedAt); ++i) {
@@ -58,7 +58,7 @@ Status check(const EvaluationOptions& options) {
   return {};
 }
 
-Thresholds choose_thresholds(const FoundSet& found, const EvaluationOptions& options) {
+Thresholds choose_thresholds(const PredictionSet& found, const EvaluationOptions& options) {
   const auto values = values_of(found);
   Thresholds thresholds;
   thresholds.binary = values.count() <= 2;

@@ -20,19 +20,20 @@ struct Thresholds {
 };
 
 // The one asked for; the upper value of binary maps; or a sweep.
-[[nodiscard]] Thresholds choose_thresholds(const FoundSet& found, const EvaluationOptions& options);
+[[nodiscard]] Thresholds choose_thresholds(const PredictionSet& found,
+                                           const EvaluationOptions& options);
 
 // Runs `work(i)`, which gives a Result, for each frame. A frame that fails leaves its error in
 // place of its result.
 template <class T, class F>
-std::vector<Result<T>> for_each_frame(const FoundSet& found, Runner& runner,
+std::vector<Result<T>> for_each_frame(const PredictionSet& found, ParallelRunner& runner,
                                       const Progress& progress, std::size_t count, F&& work) {
   std::vector<Result<T>> results(count);
   std::mutex mutex;
   std::size_t done = 0;
   runner.run(static_cast<int>(count), [&](int task) {
     const auto i = static_cast<std::size_t>(task);
-    results[i] = io::without_throwing(found.names()[i], [&] { return work(i); });
+    results[i] = io::catch_bad_alloc(found.names()[i], [&] { return work(i); });
     if (progress) {
       const std::lock_guard lock(mutex);
       progress(++done, count);

@@ -240,7 +240,7 @@ class MatReader {
 }  // namespace
 
 Result<TruthMaps> read_mat_truth(const std::string& path, const Limits& limits) {
-  return io::without_throwing(path, [&] { return MatReader(path, limits).read(); });
+  return io::catch_bad_alloc(path, [&] { return MatReader(path, limits).read(); });
 }
 
 }  // namespace thermedge::eval

@@ -109,7 +109,7 @@ Result<std::vector<Image<std::uint8_t>>> read_maps(const Archive& archive, const
 }  // namespace
 
 Result<TruthMaps> read_npz_truth(const std::string& path, const Limits& limits) {
-  return io::without_throwing(path, [&]() -> Result<TruthMaps> {
+  return io::catch_bad_alloc(path, [&]() -> Result<TruthMaps> {
     const auto bytes = io::read_file(path, limits);
     if (!bytes) {
       return tl::unexpected(bytes.error());

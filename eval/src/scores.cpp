@@ -161,14 +161,14 @@ Scores score(std::span<const std::vector<MatchCounts>> counts, std::span<const i
   return scores;
 }
 
-Merit pratt_merit(ImageView<const std::uint8_t> found,
-                  std::span<const Image<std::uint8_t>> annotators) {
+PrattFom pratt_merit(ImageView<const std::uint8_t> found,
+                     std::span<const Image<std::uint8_t>> annotators) {
   std::size_t found_count = 0;
   for (int y = 0; y < found.height(); ++y) {
     found_count += static_cast<std::size_t>(
         found.width() - std::count(found.row(y), found.row(y) + found.width(), 0));
   }
-  Merit merit;
+  PrattFom merit;
   for (const auto& truth : annotators) {
     const double value = merit_of(found, found_count, truth);
     merit.mean += value;

@@ -106,7 +106,7 @@ struct ComparisonSheet::Impl {
                              const std::string& source) const;
 
   ComparisonOptions options;
-  std::unique_ptr<Runner> runner;
+  std::unique_ptr<ParallelRunner> runner;
   Detector detector;
   Denoiser denoiser;
   ClassicalDetector classical;

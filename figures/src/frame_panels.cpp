@@ -71,14 +71,14 @@ Draw map_picture(ImageView<const std::uint8_t> edges) {
 }
 
 void draw_contours(Canvas& canvas, const ContourSet& set) {
-  for (std::size_t i = 0; i < set.contours.size(); ++i) {
-    const Contour& contour = set.contours[i];
+  for (std::size_t i = 0; i < set.items.size(); ++i) {
+    const Contour& contour = set.items[i];
     canvas.line(to_points(set.pixels(contour)), contour.closed, category_colour(i), kLinePx);
   }
 }
 
 void draw_contours(Canvas& canvas, const ContourSet& set, Rgb colour) {
-  for (const Contour& contour : set.contours) {
+  for (const Contour& contour : set.items) {
     canvas.line(to_points(set.pixels(contour)), contour.closed, colour, kLinePx);
   }
 }

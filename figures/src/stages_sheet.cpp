@@ -93,8 +93,8 @@ class StagePanels {
         "{} to {} counts, noise sigma {:.1f} counts; shown from the "
         "0.5th to the 99.5th percentile.",
         range.min, range.max, found_.noise.sigma_counts);
-    if (!found_.dead_pixels.empty()) {
-      note += fmt::format(" {} replaced.", plural(found_.dead_pixels.size(), "dead pixel"));
+    if (!found_.bad_pixels.empty()) {
+      note += fmt::format(" {} replaced.", plural(found_.bad_pixels.size(), "dead pixel"));
     }
     return panel("Frame", std::move(note), frame_picture(found_.corrected));
   }
@@ -126,12 +126,13 @@ class StagePanels {
     const double share = 1 - share_of_level(found_.edge_map, 0);
     const bool oriented = options_.edges == EdgeMethod::kOriented;
     const std::string thresholds =
-        oriented ? fmt::format(
-                       "prominence above {:.2f}, connected down to {:.2f}, in units of the "
-                       "noise",
-                       found_.canny_high, found_.canny_low)
-                 : fmt::format("Sobel magnitude above {:.1f}, connected down to {:.1f} levels",
-                               found_.canny_high, found_.canny_low);
+        oriented
+            ? fmt::format(
+                  "suppressed_response above {:.2f}, connected down to {:.2f}, in units of the "
+                  "noise",
+                  found_.threshold_high, found_.threshold_low)
+            : fmt::format("Sobel magnitude above {:.1f}, connected down to {:.1f} levels",
+                          found_.threshold_high, found_.threshold_low);
     return panel(
         oriented ? "Edge pixels (oriented kernels)" : "Edge pixels (Canny)",
         fmt::format("{:.0f} pixels, {:.1f} % of the frame; {}.",
@@ -141,28 +142,27 @@ class StagePanels {
 
   [[nodiscard]] Panel contours() const {
     const ContourSet& set = *found_.contours;
-    const auto closed = std::count_if(set.contours.begin(), set.contours.end(),
+    const auto closed = std::count_if(set.items.begin(), set.items.end(),
                                       [](const Contour& contour) { return contour.closed; });
-    return drawn_over(
-        "Contours",
-        fmt::format("{}, {} closed, {} pixels; a new colour for each.",
-                    plural(set.contours.size(), "contour"), closed, set.points.size()),
-        [&set](Canvas& canvas) { draw_contours(canvas, set); });
+    return drawn_over("Contours",
+                      fmt::format("{}, {} closed, {} pixels; a new colour for each.",
+                                  plural(set.items.size(), "contour"), closed, set.points.size()),
+                      [&set](Canvas& canvas) { draw_contours(canvas, set); });
   }
 
   [[nodiscard]] Panel links() const {
     const LinkedContours& linked = *found_.linked;
     const bool from_graph = options_.edges == EdgeMethod::kOriented;
-    Panel made = drawn_over(
-        "Links",
-        from_graph
-            ? std::string("ends of contours that meet the middle of another one.")
-            : fmt::format("gaps under {} px: {} contours became {}.", options_.linking.gap_px,
-                          found_.contours->contours.size(), linked.contours.contours.size()),
-        [&linked](Canvas& canvas) {
-          draw_contours(canvas, linked.contours, {150, 154, 160});
-          draw_links(canvas, linked.links);
-        });
+    Panel made =
+        drawn_over("Links",
+                   from_graph ? std::string("ends of contours that meet the middle of another one.")
+                              : fmt::format("gaps under {} px: {} contours became {}.",
+                                            options_.linking.gap_px, found_.contours->items.size(),
+                                            linked.contours.items.size()),
+                   [&linked](Canvas& canvas) {
+                     draw_contours(canvas, linked.contours, {150, 154, 160});
+                     draw_links(canvas, linked.links);
+                   });
     made.legend.assign(link_marks().begin(), link_marks().end());
     for (std::size_t i = 0; i < made.legend.size(); ++i) {
       const auto count = std::count_if(
@@ -186,38 +186,39 @@ class StagePanels {
   }
 
   [[nodiscard]] Panel scores() const {
-    return options_.edges == EdgeMethod::kOriented ? verdicts() : edge_scores();
+    return options_.edges == EdgeMethod::kOriented ? statuses() : edge_scores();
   }
 
   // Why edges were kept or dropped.
-  [[nodiscard]] Panel verdicts() const {
+  [[nodiscard]] Panel statuses() const {
     const EdgeSet& set = found_.edges;
     struct Kind {
-      EdgeVerdict verdict;
+      EdgeStatus status;
       Rgb colour;
       std::string_view label;
     };
     static const std::array<Kind, 4> kKinds = {
-        Kind{EdgeVerdict::kWeak, {96, 104, 116}, "weak"},
-        Kind{EdgeVerdict::kInsignificant, category_colour(3), "not significant"},
-        Kind{EdgeVerdict::kBeyondBudget, category_colour(4), "beyond budget"},
-        Kind{EdgeVerdict::kKept, category_colour(1), "kept"}};
+        Kind{EdgeStatus::kWeak, {96, 104, 116}, "weak"},
+        Kind{EdgeStatus::kInsignificant, category_colour(3), "not significant"},
+        Kind{EdgeStatus::kBeyondBudget, category_colour(4), "beyond budget"},
+        Kind{EdgeStatus::kKept, category_colour(1), "kept"}};
     const auto& selection = options_.selection;
     Panel made = drawn_over(
         "Verdicts",
-        fmt::format("score (log of prominence, and of length) from {:.2f}; on the raw frame, at "
-                    "most {:g} such edges expected of noise alone.",
-                    selection.min_score, selection.max_false_alarms),
+        fmt::format(
+            "score (log of suppressed_response, and of length) from {:.2f}; on the raw frame, at "
+            "most {:g} such edges expected of noise alone.",
+            selection.min_score, selection.max_false_alarms),
         [&set](Canvas& canvas) {
           draw_edges(canvas, set, set.edges, [](const Edge& edge) {
             return std::find_if(kKinds.begin(), kKinds.end(),
-                                [&](const Kind& kind) { return kind.verdict == edge.verdict; })
+                                [&](const Kind& kind) { return kind.status == edge.status; })
                 ->colour;
           });
         });
     for (const Kind& kind : kKinds) {
       const auto count = std::count_if(set.edges.begin(), set.edges.end(), [&](const Edge& edge) {
-        return edge.verdict == kind.verdict;
+        return edge.status == kind.status;
       });
       made.legend.push_back({Mark::kDisc, kind.colour, fmt::format("{} {}", kind.label, count)});
     }

@@ -13,7 +13,7 @@ namespace thermedge::io {
 // Calls `work`, which gives a Result or a Status; running out of memory becomes an error that names
 // the file.
 template <class F>
-[[nodiscard]] auto without_throwing(const std::string& name, F&& work) -> decltype(work()) {
+[[nodiscard]] auto catch_bad_alloc(const std::string& name, F&& work) -> decltype(work()) {
   try {
     return std::forward<F>(work)();
   } catch (const std::bad_alloc&) {

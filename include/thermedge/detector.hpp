@@ -44,8 +44,8 @@ struct Detection {
   int width = 0, height = 0;
   NoiseEstimate noise;      // zero where the input was an edge map
   double sigma_counts = 0;  // the noise that the denoiser was told
-  double canny_low = 0,
-         canny_high = 0;  // thresholds used; of oriented kernels in units of the noise
+  double threshold_low = 0,
+         threshold_high = 0;  // thresholds used; of oriented kernels in units of the noise
   // Of oriented kernels, 0 otherwise: what the thresholds are in units of, and what it came from.
   double range_counts = 0;  // of the frame, its 0.1st to 99.9th percentile
   double unit_counts = 0;   // noise, at least a share of the range
@@ -53,7 +53,7 @@ struct Detection {
   EdgeSet edges;
   StageTimes ms;
   // Intermediate pictures and sets, for looking at each step; empty where a step did not run.
-  std::span<const DeadPixel> dead_pixels;
+  std::span<const BadPixel> bad_pixels;
   const StripeOffsets* stripes = nullptr;    // that were removed
   ImageView<const std::uint16_t> corrected;  // counts after nuc
   ImageView<const std::uint8_t> levels;      // Algorithm 1

@@ -31,7 +31,7 @@ struct BoundingBox {
 };
 
 // Why an edge was kept or not.
-enum class EdgeVerdict {
+enum class EdgeStatus {
   kKept,           // passed all tests, and is within the budgets
   kBeyondBudget,   // passed all tests, but there were better ones
   kWeak,           // its score is too low
@@ -39,21 +39,22 @@ enum class EdgeVerdict {
 };
 
 struct Edge {
-  std::int32_t id = 0;    // unique within the frame: the rank
-  std::int32_t rank = 0;  // 0 = best
-  double score = 0;       // what edges are ranked by: ES, smaller is better; or, of edge pixels
-                          // by oriented kernels, log(mean prominence) + .25 log N, larger is better
-  double strength = 0;    // 0..1, falls with the rank, for pictures. By the score, so that it means
-                          // the same in every frame; where ES ranks, evenly from 1 to 0
-  double es = 0;          // edge score of the paper, eqs. 14-18
-  double z = 0;           // contrast across the edge on the frame before denoising, in units of
-                          // its standard deviation by noise alone
-  double log10_nfa = 0;   // log10 of the expected number of such edges in pure noise
-  double length_px = 0;   // arc length
+  std::int32_t index = 0;  // in EdgeSet::edges; the same as the rank
+  std::int32_t rank = 0;   // 0 = best
+  double score =
+      0;  // what edges are ranked by: ES, smaller is better; or, of edge pixels
+          // by oriented kernels, log(mean suppressed_response) + .25 log N, larger is better
+  double display_strength = 0;  // 0..1, falls with the rank, for pictures. By the score, so that it
+                                // means the same in every frame; where ES ranks, evenly from 1 to 0
+  double es = 0;                // edge score of the paper, eqs. 14-18
+  double z = 0;          // contrast across the edge on the frame before denoising, in units of
+                         // its standard deviation by noise alone
+  double log10_nfa = 0;  // log10 of the expected number of such edges in pure noise
+  double length_px = 0;  // arc length
   double contrast_counts = 0;  // mean step across the edge, counts
   bool closed = false;
-  bool kept = false;  // verdict == kKept
-  EdgeVerdict verdict = EdgeVerdict::kKept;
+  bool kept = false;  // status == kKept
+  EdgeStatus status = EdgeStatus::kKept;
   BoundingBox box;
   Range edgels;             // in EdgeSet::edgels
   Range corners;            // in EdgeSet::corners

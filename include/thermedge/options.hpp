@@ -39,11 +39,12 @@ enum class Preset {
 enum class EdgeMethod {
   kCanny,     // the paper: on the denoised 8-bit view; contours by walking, linked; ranked by ES
   kOriented,  // on denoised counts, in units of the noise: oriented kernels; contours by a graph of
-              // segments and junctions; ranked by prominence and length, tested on the raw frame
+              // segments and junctions; ranked by suppressed_response and length, tested on the raw
+              // frame
 };
 
 namespace detail {
-NucOptions robust_nuc();
+BadPixelOptions robust_nuc();
 DenoiseOptions robust_denoise();
 SelectionOptions robust_selection();
 }  // namespace detail
@@ -52,14 +53,14 @@ struct DetectorOptions {
   Preset preset = Preset::kRobust;
   EdgeMethod edges = EdgeMethod::kOriented;
   int threads = 0;  // 0: one per core
-  NucOptions nuc = detail::robust_nuc();
-  ScaleOptions scale;
+  BadPixelOptions nuc = detail::robust_nuc();
+  GreyScaleOptions scale;
   DenoiseOptions denoise = detail::robust_denoise();
   CannyOptions canny;
-  OrientedOptions oriented;
+  OrientedFilterOptions oriented;
   ContourOptions contours;
   GraphOptions graph;
-  BridgingOptions bridging;
+  GapClosingOptions gap_closing;
   CornerOptions corners;
   LinkingOptions linking;
   ScoringOptions scoring;
@@ -105,20 +106,20 @@ concept OptionsOf = std::same_as<std::remove_const_t<O>, Options>;
 //   visitor(name, field, names, help)    enumerations, `names` an array of EnumName
 // Nested option structs are visited under "<name>." by the visitor's own `group(name, options)`.
 
-template <OptionsOf<NucOptions> O, class V>
+template <OptionsOf<BadPixelOptions> O, class V>
 void visit_options(O& o, V&& v) {
-  v("dead_pixels", o.dead_pixels, Bounds{0, 1}, "replace dead pixels by their neighbours' median");
-  v("dead_pixel_sigmas", o.dead_pixel_sigmas, Bounds{1, 1000},
+  v("bad_pixels", o.bad_pixels, Bounds{0, 1}, "replace dead pixels by their neighbours' median");
+  v("threshold_sigmas", o.threshold_sigmas, Bounds{1, 1000},
     "how far outside its neighbours' range a pixel is dead, in sigma");
   v("stripes", o.stripes, Bounds{0, 1}, "remove the fixed offsets of columns and rows");
 }
 
-template <OptionsOf<ScaleOptions> O, class V>
+template <OptionsOf<GreyScaleOptions> O, class V>
 void visit_options(O& o, V&& v) {
   v("gain", o.gain, Bounds{1e-6, 1000}, "grey levels per count (0.5: 0.02 degC a level)");
 }
 
-template <OptionsOf<StableViewOptions> O, class V>
+template <OptionsOf<StableGreyScaleOptions> O, class V>
 void visit_options(O& o, V&& v) {
   v("gain", o.gain, Bounds{0, 1000}, "grey levels per count (0: from the noise)");
   v("dead_band_levels", o.dead_band_levels, Bounds{0, 127},
@@ -148,7 +149,7 @@ void visit_options(O& o, V&& v) {
   v("wiener", o.wiener, Bounds{0, 1}, "run the second stage");
 }
 
-template <OptionsOf<RippleOptions> O, class V>
+template <OptionsOf<BilateralOptions> O, class V>
 void visit_options(O& o, V&& v) {
   v("range_sigmas", o.range_sigmas, Bounds{0, 10},
     "bilateral filter behind the method: range, in units of the noise (0: off)");
@@ -159,12 +160,12 @@ template <OptionsOf<DenoiseOptions> O, class V>
 void visit_options(O& o, V&& v) {
   v("method", o.method, kDenoiseMethods, "none, gaussian, nlm or bm3d");
   v("sigma_counts", o.sigma_counts, Bounds{0, 65535}, "noise, counts (0: measured on each frame)");
-  v("strength", o.strength, Bounds{0.1, 10}, "nlm and bm3d are told so many times the noise");
-  v("shading", o.shading, Bounds{0, 1}, "take the smooth background off while denoising");
+  v("sigma_scale", o.sigma_scale, Bounds{0.1, 10}, "nlm and bm3d are told so many times the noise");
+  v("detrend", o.detrend, Bounds{0, 1}, "take the smooth background off while denoising");
   v.group("gaussian", o.gaussian);
   v.group("nlm", o.nlm);
   v.group("bm3d", o.bm3d);
-  v.group("ripple", o.ripple);
+  v.group("bilateral", o.bilateral);
 }
 
 template <OptionsOf<CannyOptions> O, class V>
@@ -176,7 +177,7 @@ void visit_options(O& o, V&& v) {
   v("low_over_high", o.low_over_high, Bounds{0, 1}, "low threshold as a share of the high one");
 }
 
-template <OptionsOf<OrientedOptions> O, class V>
+template <OptionsOf<OrientedFilterOptions> O, class V>
 void visit_options(O& o, V&& v) {
   v("across_px", o.across_px, Bounds{0.5, 2}, "width of the kernels across the edge, sigma, px");
   v("clean_across_px", o.clean_across_px, Bounds{0.5, 2},
@@ -211,11 +212,11 @@ void visit_options(O& o, V&& v) {
   v("closed_length_gaps", o.closed_length_gaps, Bounds{0, 1000}, "... that is so many gaps long");
 }
 
-template <OptionsOf<BridgingOptions> O, class V>
+template <OptionsOf<GapClosingOptions> O, class V>
 void visit_options(O& o, V&& v) {
   v("gap_px", o.gap_px, Bounds{0, 32}, "curves are carried on over gaps up to this, px (0: none)");
   v("max_turn_deg", o.max_turn_deg, Bounds{0, 90}, "sharpest turn into a bridge, degrees");
-  v("least_contrast", o.least_contrast, Bounds{0, 1},
+  v("min_contrast_ratio", o.min_contrast_ratio, Bounds{0, 1},
     "contrast across a bridge, as a share of that across the end before it");
 }
 
@@ -262,7 +263,7 @@ void visit_options(O& o, V&& v) {
   v.group("oriented", o.oriented);
   v.group("contours", o.contours);
   v.group("graph", o.graph);
-  v.group("bridging", o.bridging);
+  v.group("gap_closing", o.gap_closing);
   v.group("corners", o.corners);
   v.group("linking", o.linking);
   v.group("scoring", o.scoring);

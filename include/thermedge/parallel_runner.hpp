@@ -7,11 +7,11 @@
 namespace thermedge {
 
 // A reference to a callable `void(int)`, without allocation; valid during the call it is passed to.
-class TaskRef {
+class FunctionRef {
  public:
   template <class F>
-  requires(!std::is_same_v<std::remove_cvref_t<F>, TaskRef>)
-      TaskRef(F&& task)  // NOLINT(bugprone-forwarding-reference-overload)
+  requires(!std::is_same_v<std::remove_cvref_t<F>, FunctionRef>)
+      FunctionRef(F&& task)  // NOLINT(bugprone-forwarding-reference-overload)
       : object_(const_cast<void*>(static_cast<const void*>(&task))),
         call_([](void* object, int index) {
           (*static_cast<std::remove_reference_t<F>*>(object))(index);
@@ -25,21 +25,21 @@ class TaskRef {
 
 // Runs `task(0) .. task(count - 1)`, each once, in any order, perhaps at the same time, and returns
 // when all are done. Stages cut their work into tasks independently of the number of threads and
-// merge results in task order; that is what makes the output the same for every Runner.
-// One Runner serves one caller at a time.
-class Runner {
+// merge results in task order; that is what makes the output the same for every ParallelRunner.
+// One ParallelRunner serves one caller at a time.
+class ParallelRunner {
  public:
-  Runner() = default;
-  Runner(const Runner&) = delete;
-  Runner& operator=(const Runner&) = delete;
-  virtual ~Runner() = default;
+  ParallelRunner() = default;
+  ParallelRunner(const ParallelRunner&) = delete;
+  ParallelRunner& operator=(const ParallelRunner&) = delete;
+  virtual ~ParallelRunner() = default;
 
-  virtual void run(int count, TaskRef task) = 0;
+  virtual void run(int count, FunctionRef task) = 0;
   [[nodiscard]] virtual int threads() const = 0;
 };
 
-// A Runner on `threads` threads (the caller's is one of them); 0 takes one for each core.
+// A ParallelRunner on `threads` threads (the caller's is one of them); 0 takes one for each core.
 // 1 runs the tasks in order on the caller's thread.
-[[nodiscard]] std::unique_ptr<Runner> make_runner(int threads);
+[[nodiscard]] std::unique_ptr<ParallelRunner> make_runner(int threads);
 
 }  // namespace thermedge

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "cuts.hpp"
+#include "intersections.hpp"
 #include "portable.hpp"
 #include "random.hpp"
 
@@ -10,7 +10,7 @@ namespace thermedge::sim {
 namespace {
 
 // Value noise in -1..1: random numbers at whole coordinates, smooth between.
-double mottle(double x, double y) {
+double value_noise(double x, double y) {
   static const Random kSpots(7, 7);
   const double x0 = std::floor(x);
   const double y0 = std::floor(y);
@@ -227,9 +227,10 @@ int Facet::patch_at(Vec3 p) const {
 double Facet::temperature_at(Vec3 p, int patch) const {
   const Surface& s = patch < 0 ? surface : patches[static_cast<std::size_t>(patch)].surface;
   double degc = s.temperature_degc + dot(s.gradient_degc_per_m, p - anchor);
-  if (s.mottle_degc > 0 && kind == Kind::kQuad) {
+  if (s.value_noise_degc > 0 && kind == Kind::kQuad) {
     const Vec3 q = p - centre;
-    degc += s.mottle_degc * mottle(dot(across, q) / s.mottle_m, dot(along, q) / s.mottle_m);
+    degc += s.value_noise_degc *
+            value_noise(dot(across, q) / s.value_noise_m, dot(along, q) / s.value_noise_m);
   }
   return degc;
 }
@@ -250,13 +251,13 @@ Vec3 SpaceCurve::at(double t) const {
   return centre + e1 * cosine[quarter] + e2 * sine[quarter];
 }
 
-Facets take_apart(const World& world) {
+Facets tessellate(const World& world) {
   Facets result;
   Builder builder(result);
   for (const Object& object : world.objects) {
     builder.object(object);
   }
-  add_cuts(result);
+  add_intersections(result);
   return result;
 }
 

@@ -76,7 +76,7 @@ struct Facets {
   std::vector<EdgeCurve> curves;
 };
 
-[[nodiscard]] Facets take_apart(const World& world);
+[[nodiscard]] Facets tessellate(const World& world);
 
 // Where the curve lies as seen from `eye`; false: nowhere.
 [[nodiscard]] bool resolve(const EdgeCurve& edge, const std::vector<Facet>& facets, Vec3 eye,

@@ -50,12 +50,12 @@ class SurfaceMeans {
   }
 
   // The sum over all rays.
-  [[nodiscard]] double counts(const Caster& caster) const {
+  [[nodiscard]] double counts(const RayCaster& ray_caster) const {
     double sum = 0;
     for (std::size_t i = 0; i < used_; ++i) {
       const Mean& mean = means_[i];
-      sum +=
-          mean.rays * caster.counts(mean.sum * (1.0 / mean.rays), mean.hit.facet, mean.hit.patch);
+      sum += mean.rays *
+             ray_caster.counts(mean.sum * (1.0 / mean.rays), mean.hit.facet, mean.hit.patch);
     }
     return sum;
   }
@@ -70,7 +70,7 @@ class SurfaceMeans {
   std::size_t used_ = 0;
 };
 
-void run_rows(int rows, Runner& runner, const auto& task) {
+void run_rows(int rows, ParallelRunner& runner, const auto& task) {
   runner.run((rows + kTaskRows - 1) / kTaskRows, [&](int index) {
     for (int y = index * kTaskRows; y < std::min((index + 1) * kTaskRows, rows); ++y) {
       task(y);
@@ -104,15 +104,15 @@ Point Imager::position(int x, int y) const {
   return {centre(x), centre(y)};
 }
 
-void Imager::run(const Caster& caster, ImageView<float> clean, Runner& runner) {
-  run_rows(height_, runner, [&](int y) { cast_row(caster, y); });
-  run_rows(height_, runner, [&](int y) { refine_row(caster, y); });
+void Imager::run(const RayCaster& ray_caster, ImageView<float> clean, ParallelRunner& runner) {
+  run_rows(height_, runner, [&](int y) { cast_row(ray_caster, y); });
+  run_rows(height_, runner, [&](int y) { refine_row(ray_caster, y); });
   optics_.run(fine_, clean, runner);
   if (vignetting_ > 0) {
     for (int y = 0; y < clean.height(); ++y) {
       for (int x = 0; x < clean.width(); ++x) {
         const double light =
-            caster.lens().light({static_cast<double>(x), static_cast<double>(y)}, vignetting_);
+            ray_caster.lens().light({static_cast<double>(x), static_cast<double>(y)}, vignetting_);
         clean(x, y) =
             static_cast<float>(kCountsAt25DegC + light * (double{clean(x, y)} - kCountsAt25DegC));
       }
@@ -120,12 +120,12 @@ void Imager::run(const Caster& caster, ImageView<float> clean, Runner& runner) {
   }
 }
 
-void Imager::cast_row(const Caster& caster, int y) {
+void Imager::cast_row(const RayCaster& ray_caster, int y) {
   const Point* rays = &rays_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_)];
   for (int x = 0; x < width_; ++x) {
-    const Hit hit = caster.cast(rays[x], caster.facets_near(position(x, y)));
+    const Hit hit = ray_caster.cast(rays[x], ray_caster.facets_near(position(x, y)));
     keys_(x, y) = {static_cast<std::int16_t>(hit.facet), static_cast<std::int16_t>(hit.patch)};
-    fine_(x, y) = static_cast<float>(caster.counts(rays[x], hit));
+    fine_(x, y) = static_cast<float>(ray_caster.counts(rays[x], hit));
   }
 }
 
@@ -141,16 +141,16 @@ bool Imager::on_boundary(int x, int y) const {
   return false;
 }
 
-void Imager::refine_row(const Caster& caster, int y) {
+void Imager::refine_row(const RayCaster& ray_caster, int y) {
   for (int x = 0; x < width_; ++x) {
     if (on_boundary(x, y)) {
-      fine_(x, y) = static_cast<float>(mean_counts(caster, x, y));
+      fine_(x, y) = static_cast<float>(mean_counts(ray_caster, x, y));
     }
   }
 }
 
 // Within a sub-pixel the rays change as between its neighbours.
-double Imager::mean_counts(const Caster& caster, int x, int y) const {
+double Imager::mean_counts(const RayCaster& ray_caster, int x, int y) const {
   const auto ray = [&](int i, int j) {
     i = std::clamp(i, 0, width_ - 1);
     j = std::clamp(j, 0, height_ - 1);
@@ -166,22 +166,23 @@ double Imager::mean_counts(const Caster& caster, int x, int y) const {
   const Point down{(ray(x, bottom).x - ray(x, top).x) / (bottom - top),
                    (ray(x, bottom).y - ray(x, top).y) / (bottom - top)};
   const Point middle = ray(x, y);
-  const auto among = caster.facets_near(position(x, y));
+  const auto among = ray_caster.facets_near(position(x, y));
   SurfaceMeans means;
   const int shift = y % kShifts * kShifts + x % kShifts;
   for (const Point s : samples_[static_cast<std::size_t>(shift)]) {
     const Point p{middle.x + s.x * across.x + s.y * down.x,
                   middle.y + s.x * across.y + s.y * down.y};
-    const Hit hit = caster.cast(p, among);
-    means.add(hit, caster.point(p, hit.depth));
+    const Hit hit = ray_caster.cast(p, among);
+    means.add(hit, ray_caster.point(p, hit.depth));
   }
-  return means.counts(caster) / kSamples;
+  return means.counts(ray_caster) / kSamples;
 }
 
-void render_depth(const Caster& caster, ImageView<std::uint16_t> depth_mm, Runner& runner) {
+void render_depth(const RayCaster& ray_caster, ImageView<std::uint16_t> depth_mm,
+                  ParallelRunner& runner) {
   run_rows(depth_mm.height(), runner, [&](int y) {
     for (int x = 0; x < depth_mm.width(); ++x) {
-      const Hit hit = caster.cast({static_cast<double>(x), static_cast<double>(y)});
+      const Hit hit = ray_caster.cast({static_cast<double>(x), static_cast<double>(y)});
       constexpr double kMost = 65535;
       depth_mm(x, y) = static_cast<std::uint16_t>(std::min(hit.depth * 1000 + 0.5, kMost));
     }

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "caster.hpp"
 #include "optics.hpp"
+#include "ray_caster.hpp"
 #include "thermedge/image.hpp"
 
 namespace thermedge::sim {
@@ -16,7 +16,7 @@ class Imager {
 
   [[nodiscard]] int margin_px() const { return margin_px_; }
   // Counts without noise into `clean`, of the camera's size.
-  void run(const Caster& caster, ImageView<float> clean, Runner& runner);
+  void run(const RayCaster& ray_caster, ImageView<float> clean, ParallelRunner& runner);
 
  private:
   struct Key {
@@ -24,10 +24,10 @@ class Imager {
     friend bool operator==(const Key&, const Key&) = default;
   };
   [[nodiscard]] Point position(int x, int y) const;
-  void cast_row(const Caster& caster, int y);
-  void refine_row(const Caster& caster, int y);
+  void cast_row(const RayCaster& ray_caster, int y);
+  void refine_row(const RayCaster& ray_caster, int y);
   [[nodiscard]] bool on_boundary(int x, int y) const;
-  [[nodiscard]] double mean_counts(const Caster& caster, int x, int y) const;
+  [[nodiscard]] double mean_counts(const RayCaster& ray_caster, int x, int y) const;
 
   double vignetting_;
   Optics optics_;
@@ -40,6 +40,7 @@ class Imager {
 };
 
 // Depth along the optical axis through each pixel's centre, mm, as TrueFrame has it.
-void render_depth(const Caster& caster, ImageView<std::uint16_t> depth_mm, Runner& runner);
+void render_depth(const RayCaster& ray_caster, ImageView<std::uint16_t> depth_mm,
+                  ParallelRunner& runner);
 
 }  // namespace thermedge::sim

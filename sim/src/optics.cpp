@@ -121,7 +121,7 @@ Optics::Optics(double blur_px, double airy_px) {
   margin_px_ = (side / 2 + kSubpixels - 1) / kSubpixels;
 }
 
-void Optics::run(ImageView<const float> fine, ImageView<float> pixels, Runner& runner) {
+void Optics::run(ImageView<const float> fine, ImageView<float> pixels, ParallelRunner& runner) {
   if (plane_.empty()) {
     run_separable(fine, pixels, runner);
   } else {
@@ -129,7 +129,8 @@ void Optics::run(ImageView<const float> fine, ImageView<float> pixels, Runner& r
   }
 }
 
-void Optics::run_separable(ImageView<const float> fine, ImageView<float> pixels, Runner& runner) {
+void Optics::run_separable(ImageView<const float> fine, ImageView<float> pixels,
+                           ParallelRunner& runner) {
   const int taps = static_cast<int>(line_.size());
   // The first sub-pixel under the weights of pixel 0.
   const int first = (margin_px_ + 1) * kSubpixels - kSubpixels / 2 - taps / 2;
@@ -163,7 +164,8 @@ void Optics::run_separable(ImageView<const float> fine, ImageView<float> pixels,
   });
 }
 
-void Optics::run_full(ImageView<const float> fine, ImageView<float> pixels, Runner& runner) const {
+void Optics::run_full(ImageView<const float> fine, ImageView<float> pixels,
+                      ParallelRunner& runner) const {
   const int first = (margin_px_ + 1) * kSubpixels - kSubpixels / 2 - plane_side_ / 2;
   runner.run(pixels.height(), [&](int y) {
     float* to = pixels.row(y);

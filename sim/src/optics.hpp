@@ -24,11 +24,11 @@ class Optics {
   [[nodiscard]] int margin_px() const { return margin_px_; }
 
   // `fine`: sub-pixels of `pixels` and of a margin of margin_px() around it.
-  void run(ImageView<const float> fine, ImageView<float> pixels, Runner& runner);
+  void run(ImageView<const float> fine, ImageView<float> pixels, ParallelRunner& runner);
 
  private:
-  void run_separable(ImageView<const float> fine, ImageView<float> pixels, Runner& runner);
-  void run_full(ImageView<const float> fine, ImageView<float> pixels, Runner& runner) const;
+  void run_separable(ImageView<const float> fine, ImageView<float> pixels, ParallelRunner& runner);
+  void run_full(ImageView<const float> fine, ImageView<float> pixels, ParallelRunner& runner) const;
 
   int margin_px_ = 1;
   std::vector<float> line_;   // weights along one axis, of an even number of sub-pixels

@@ -102,8 +102,8 @@ Pose pose_at(const Viewpoint& view, const SceneOptions& options, int index) {
       constexpr double kReach = 6 / 383.0 / 2;  // half the tangent of 6 px
       const double knots = seconds * kKnotsPerSecond;
       const Vec3 angle = wander(options.seed, kAngle, knots);
-      const Vec3 sway = wander(options.seed, kPosition, knots / 4);
-      return pose_of(view.position + sway * 0.015,
+      const Vec3 jitter = wander(options.seed, kPosition, knots / 4);
+      return pose_of(view.position + jitter * 0.015,
                      turned(start, Vec3{angle.x, angle.y, angle.z / 2} * kReach));
     }
     case PathKind::kDrive:

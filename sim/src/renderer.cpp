@@ -48,15 +48,15 @@ class Renderer::Impl {
   Impl(SceneOptions options, World world)
       : options_(std::move(options)),
         world_(std::move(world)),
-        facets_(take_apart(world_)),
+        facets_(tessellate(world_)),
         lens_(intrinsics_of(options_.camera)),
         imager_(lens_, options_.camera),
-        caster_(world_, facets_, lens_, imager_.margin_px()),
+        ray_caster_(world_, facets_, lens_, imager_.margin_px()),
         sensor_(options_.camera, options_.seed) {}
 
   [[nodiscard]] const SceneOptions& options() const { return options_; }
 
-  TrueFrame render(int index, Runner& runner) {
+  TrueFrame render(int index, ParallelRunner& runner) {
     const CameraOptions& camera = options_.camera;
     TrueFrame frame;
     frame.index = index;
@@ -67,20 +67,21 @@ class Renderer::Impl {
     frame.clean.resize(camera.width, camera.height);
     const int shown = frame.shutter ? frame.shutter->shows_frame : index;
     if (shown != index) {
-      caster_.look(pose_at(world_.view, options_, shown), runner);
-      imager_.run(caster_, frame.clean, runner);
+      ray_caster_.set_pose(pose_at(world_.view, options_, shown), runner);
+      imager_.run(ray_caster_, frame.clean, runner);
       sensor_.expose(frame.clean, shown, frame.counts, runner);
     }
     frame.pose = pose_at(world_.view, options_, index);
-    caster_.look(frame.pose, runner);
-    imager_.run(caster_, frame.clean, runner);
+    ray_caster_.set_pose(frame.pose, runner);
+    imager_.run(ray_caster_, frame.clean, runner);
     if (shown == index) {
       sensor_.expose(frame.clean, index, frame.counts, runner);
     }
-    frame.edges = true_edges(caster_, options_.least_contrast_counts, camera.vignetting, runner);
+    frame.edges =
+        true_edges(ray_caster_, options_.least_contrast_counts, camera.vignetting, runner);
     if (options_.depth) {
       frame.depth_mm.resize(camera.width, camera.height);
-      render_depth(caster_, frame.depth_mm, runner);
+      render_depth(ray_caster_, frame.depth_mm, runner);
     }
     return frame;
   }
@@ -91,7 +92,7 @@ class Renderer::Impl {
   Facets facets_;
   Lens lens_;
   Imager imager_;
-  Caster caster_;
+  RayCaster ray_caster_;
   Sensor sensor_;
 };
 
@@ -113,7 +114,7 @@ Result<Renderer> Renderer::create(const SceneOptions& options) {
   });
 }
 
-Result<TrueFrame> Renderer::render(int index, Runner& runner) {
+Result<TrueFrame> Renderer::render(int index, ParallelRunner& runner) {
   if (index < 0 || index >= options().frames) {
     return failure(ErrorCode::kInvalidArgument, "sim:" + options().name + ": there is no frame " +
                                                     std::to_string(index) + "; frames are 0 to " +

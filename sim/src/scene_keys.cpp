@@ -57,7 +57,7 @@ constexpr double kMkPerCount = kDegcPerCount * 1000;
 constexpr std::array kKeys = {
     scene_key<&SceneOptions::seed>("seed", 0, 9e15),
     scene_key<&SceneOptions::frames>("frames", 1, 1e6),
-    scene_key<&SceneOptions::least_contrast_counts>("least_contrast", 0, 5000),
+    scene_key<&SceneOptions::least_contrast_counts>("min_contrast_ratio", 0, 5000),
     camera_key<&CameraOptions::width>("width", 16, 4096),
     camera_key<&CameraOptions::height>("height", 16, 4096),
     camera_key<&CameraOptions::rate_hz>("rate", 0.1, 1000),
@@ -76,7 +76,7 @@ constexpr std::array kKeys = {
     camera_key<&CameraOptions::column_sigma_counts>("column_sigma", 0, 5000),
     camera_key<&CameraOptions::row_sigma_counts>("row_sigma", 0, 5000),
     camera_key<&CameraOptions::drift_s>("drift", 0, 1e6),
-    camera_key<&CameraOptions::dead_pixels>("dead_pixels", 0, 10000),
+    camera_key<&CameraOptions::bad_pixels>("bad_pixels", 0, 10000),
     camera_key<&CameraOptions::flickering_pixels>("flickering_pixels", 0, 10000),
     camera_key<&CameraOptions::shutter_every>("shutter_every", 0, 1e6),
     camera_key<&CameraOptions::shutter_frames>("shutter_frames", 1, 1e6),

@@ -114,7 +114,7 @@ void Sensor::update(Pattern& pattern, int frame) const {
 }
 
 void Sensor::expose(ImageView<const float> clean, int frame, ImageView<std::uint16_t> counts,
-                    Runner& runner) {
+                    ParallelRunner& runner) {
   if (pattern_frame_ < 0 || (camera_.drift_s > 0 && pattern_frame_ != frame)) {
     for (Pattern* pattern : {&columns_, &rows_, &offsets_, &gains_}) {
       update(*pattern, frame);
@@ -141,7 +141,7 @@ void Sensor::expose(ImageView<const float> clean, int frame, ImageView<std::uint
   flicker(frame, counts);
   bool low = true;
   for (const auto& [x, y] :
-       draw_pixels(Random(seed_, kDead), camera_.dead_pixels, clean.width(), clean.height())) {
+       draw_pixels(Random(seed_, kDead), camera_.bad_pixels, clean.width(), clean.height())) {
     counts(x, y) = low ? std::uint16_t{0} : kLargestCount;
     low = !low;
   }

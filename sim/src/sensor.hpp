@@ -25,7 +25,7 @@ class Sensor {
   // Counts of frame `frame`, which is not frozen: gains, fixed pattern, temporal noise, jumps of
   // the shutter, flickering and dead pixels, rounded to 14 bits and cut off at their ends.
   void expose(ImageView<const float> clean, int frame, ImageView<std::uint16_t> counts,
-              Runner& runner);
+              ParallelRunner& runner);
 
  private:
   // One kind of fixed pattern, e.g. the columns' offsets: normal numbers that turn into others.

@@ -20,29 +20,29 @@ struct CurvePoint {
 // The image of a curve of space, and which part of it can be seen at all.
 class Projector {
  public:
-  explicit Projector(const Caster& caster) : caster_(caster) {}
+  explicit Projector(const RayCaster& ray_caster) : ray_caster_(ray_caster) {}
 
   // In the camera's axes.
   [[nodiscard]] Vec3 seen(const SpaceCurve& curve, double t) const {
-    const Vec3 p = curve.at(t) - caster_.eye();
-    return {dot(p, caster_.axes().right), dot(p, caster_.axes().down),
-            dot(p, caster_.axes().forward)};
+    const Vec3 p = curve.at(t) - ray_caster_.eye();
+    return {dot(p, ray_caster_.axes().right), dot(p, ray_caster_.axes().down),
+            dot(p, ray_caster_.axes().forward)};
   }
 
   // Nothing outside of what the lens reaches.
   [[nodiscard]] std::optional<Point> pixel(Vec3 p) const {
-    const Point reach = caster_.lens().reach();
+    const Point reach = ray_caster_.lens().reach();
     if (p.z < kNearestM || std::abs(p.x) > reach.x * p.z || std::abs(p.y) > reach.y * p.z) {
       return std::nullopt;
     }
-    return caster_.lens().pixel({p.x / p.z, p.y / p.z});
+    return ray_caster_.lens().pixel({p.x / p.z, p.y / p.z});
   }
 
   // The part of a straight line that may show: cut at the five planes that bound the view.
   [[nodiscard]] bool clip(const SpaceCurve& line, double& from, double& to) const {
     const Vec3 a = seen(line, 0);
     const Vec3 b = seen(line, 1);
-    const Point reach = caster_.lens().reach();
+    const Point reach = ray_caster_.lens().reach();
     const auto distances = [&](Vec3 p) {
       return std::array{p.z - kNearestM, reach.x * p.z - p.x, reach.x * p.z + p.x,
                         reach.y * p.z - p.y, reach.y * p.z + p.y};
@@ -67,7 +67,7 @@ class Projector {
   }
 
  private:
-  const Caster& caster_;
+  const RayCaster& ray_caster_;
 };
 
 double distance(Point a, Point b) {
@@ -77,8 +77,8 @@ double distance(Point a, Point b) {
 // Points of a curve at most kSpacingPx apart, in runs that don't leave the view.
 class Tracer {
  public:
-  Tracer(const Caster& caster, const SpaceCurve& curve)
-      : projector_(caster), curve_(curve), intrinsics_(caster.lens().intrinsics()) {}
+  Tracer(const RayCaster& ray_caster, const SpaceCurve& curve)
+      : projector_(ray_caster), curve_(curve), intrinsics_(ray_caster.lens().intrinsics()) {}
 
   std::vector<std::vector<CurvePoint>> run() {
     double from = 0;
@@ -169,8 +169,8 @@ struct Step {
 // What lies on the two sides of an edge's point.
 class StepMeter {
  public:
-  StepMeter(const Caster& caster, double least_counts, double vignetting)
-      : caster_(caster), least_counts_(least_counts), vignetting_(vignetting) {}
+  StepMeter(const RayCaster& ray_caster, double least_counts, double vignetting)
+      : ray_caster_(ray_caster), least_counts_(least_counts), vignetting_(vignetting) {}
 
   // Nothing where the edge is hidden or its step too small. `along`: the curve's direction there.
   [[nodiscard]] std::optional<Step> operator()(const EdgeCurve& edge, Point p, Point along) const {
@@ -181,16 +181,16 @@ class StepMeter {
     const Point normal{-along.y / length, along.x / length};
     const Point left_ray = beside(p, normal, -kBesidePx);
     const Point right_ray = beside(p, normal, kBesidePx);
-    const auto among = caster_.facets_near(p);
-    const Hit left = caster_.cast(left_ray, among);
-    const Hit right = caster_.cast(right_ray, among);
+    const auto among = ray_caster_.facets_near(p);
+    const Hit left = ray_caster_.cast(left_ray, among);
+    const Hit right = ray_caster_.cast(right_ray, among);
     if (left.same_surface(right) || (!owns(edge, left) && !owns(edge, right)) ||
         (edge.patch && left.facet != right.facet)) {
       return std::nullopt;
     }
     const double counts =
-        caster_.lens().light(p, vignetting_) *
-        std::abs(caster_.counts(left_ray, left) - caster_.counts(right_ray, right));
+        ray_caster_.lens().light(p, vignetting_) *
+        std::abs(ray_caster_.counts(left_ray, left) - ray_caster_.counts(right_ray, right));
     if (!(counts >= least_counts_)) {
       return std::nullopt;
     }
@@ -210,14 +210,14 @@ class StepMeter {
   }
 
   [[nodiscard]] Point beside(Point p, Point normal, double distance) const {
-    return caster_.lens().ray({p.x + normal.x * distance, p.y + normal.y * distance});
+    return ray_caster_.lens().ray({p.x + normal.x * distance, p.y + normal.y * distance});
   }
 
   // The depth that a face has at the edge itself, from two points beside it: faces that are seen at
   // a flat angle are much nearer or farther there already. 0: the sky.
   [[nodiscard]] double depth_at_edge(const Hit& near, Point p, Point normal,
                                      double distance) const {
-    const Hit far = caster_.cast(beside(p, normal, 2 * distance), caster_.facets_near(p));
+    const Hit far = ray_caster_.cast(beside(p, normal, 2 * distance), ray_caster_.facets_near(p));
     return far.facet == near.facet ? 2 * near.depth - far.depth : near.depth;
   }
 
@@ -226,7 +226,7 @@ class StepMeter {
     return a > 0 && b > 0 && std::abs(a - b) <= kTouching * std::min(a, b);
   }
 
-  const Caster& caster_;
+  const RayCaster& ray_caster_;
   double least_counts_;
   double vignetting_;
 };
@@ -276,17 +276,18 @@ std::vector<std::optional<Step>> steps_of(const std::vector<CurvePoint>& run, co
   return steps;
 }
 
-void trace(const Caster& caster, int id, const StepMeter& step_at, std::vector<TrueEdge>& edges) {
-  const EdgeCurve& edge = caster.world().curves[static_cast<std::size_t>(id)];
-  const auto& facets = caster.world().facets;
+void trace(const RayCaster& ray_caster, int id, const StepMeter& step_at,
+           std::vector<TrueEdge>& edges) {
+  const EdgeCurve& edge = ray_caster.world().curves[static_cast<std::size_t>(id)];
+  const auto& facets = ray_caster.world().facets;
   SpaceCurve curve;
-  const bool faces = facets[static_cast<std::size_t>(edge.owners[0])].faces(caster.eye()) ||
-                     facets[static_cast<std::size_t>(edge.owners[1])].faces(caster.eye());
-  if (!faces || !resolve(edge, facets, caster.eye(), curve)) {
+  const bool faces = facets[static_cast<std::size_t>(edge.owners[0])].faces(ray_caster.eye()) ||
+                     facets[static_cast<std::size_t>(edge.owners[1])].faces(ray_caster.eye());
+  if (!faces || !resolve(edge, facets, ray_caster.eye(), curve)) {
     return;
   }
   Collector collector(id, facets[static_cast<std::size_t>(edge.owners[0])].object, edges);
-  for (std::vector<CurvePoint>& run : Tracer(caster, curve).run()) {
+  for (std::vector<CurvePoint>& run : Tracer(ray_caster, curve).run()) {
     // A whole ellipse ends where it begins; the point is not repeated, and the run starts behind a
     // gap, so that no edge is cut where the ellipse happens to begin.
     const bool whole = curve.closed && run.front().t == 0 && run.back().t == 1;
@@ -312,13 +313,13 @@ void trace(const Caster& caster, int id, const StepMeter& step_at, std::vector<T
 
 }  // namespace
 
-std::vector<TrueEdge> true_edges(const Caster& caster, double least_contrast_counts,
-                                 double vignetting, Runner& runner) {
-  const StepMeter step_at(caster, least_contrast_counts, vignetting);
-  const std::size_t count = caster.world().curves.size();
+std::vector<TrueEdge> true_edges(const RayCaster& ray_caster, double least_contrast_counts,
+                                 double vignetting, ParallelRunner& runner) {
+  const StepMeter step_at(ray_caster, least_contrast_counts, vignetting);
+  const std::size_t count = ray_caster.world().curves.size();
   std::vector<std::vector<TrueEdge>> found(count);
   runner.run(static_cast<int>(count),
-             [&](int id) { trace(caster, id, step_at, found[static_cast<std::size_t>(id)]); });
+             [&](int id) { trace(ray_caster, id, step_at, found[static_cast<std::size_t>(id)]); });
   std::vector<TrueEdge> edges;
   for (std::vector<TrueEdge>& some : found) {
     std::move(some.begin(), some.end(), std::back_inserter(edges));

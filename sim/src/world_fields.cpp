@@ -184,8 +184,8 @@ void Fields::surface(Surface& surface) {
   number("temperature_degc", surface.temperature_degc, kTemperature);
   number("emissivity", surface.emissivity, {0, 1});
   vector("gradient_degc_per_m", surface.gradient_degc_per_m);
-  number("mottle_degc", surface.mottle_degc, {0, 50});
-  number("mottle_m", surface.mottle_m, {0.01, 1000});
+  number("value_noise_degc", surface.value_noise_degc, {0, 50});
+  number("value_noise_m", surface.value_noise_m, {0.01, 1000});
 }
 
 void Fields::finish() {

@@ -33,15 +33,15 @@ struct Variation {
 
 Variation variation(Fields& fields, const std::string& name, std::uint64_t seed) {
   std::string group = name;
-  Vec3 sway;
+  Vec3 jitter;
   double degc = 0;
   fields.text("group", group);
-  fields.vector("sway_m", sway);
+  fields.vector("jitter_m", jitter);
   fields.number("vary_degc", degc, {0, 100});
   const Random place(seed, hash(group));
   const Random warmth(seed, hash(name) + 1);
-  return {{sway.x * place.uniform(0, -1, 1), sway.y * place.uniform(1, -1, 1),
-           sway.z * place.uniform(2, -1, 1)},
+  return {{jitter.x * place.uniform(0, -1, 1), jitter.y * place.uniform(1, -1, 1),
+           jitter.z * place.uniform(2, -1, 1)},
           degc * warmth.uniform(0, -1, 1)};
 }
 

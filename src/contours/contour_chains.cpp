@@ -25,7 +25,7 @@ void append_line_by(Pixel from, std::optional<Pixel> corner, Pixel to, std::vect
 }  // namespace
 
 Pixel pixel_of(const ContourSet& contours, std::int32_t end) {
-  const auto pixels = contours.pixels(contours.contours[contour_of(end)]);
+  const auto pixels = contours.pixels(contours.items[contour_of(end)]);
   return end % 2 == 0 ? pixels.front() : pixels.back();
 }
 
@@ -45,9 +45,9 @@ void CurveChains::reserve(std::size_t most_contours) {
 }
 
 void CurveChains::reset(const ContourSet& contours) {
-  ends_.resize(2 * contours.contours.size());
+  ends_.resize(2 * contours.items.size());
   for (std::int32_t end = 0; end < ends(); ++end) {
-    const bool closed = contours.contours[contour_of(end)].closed;
+    const bool closed = contours.items[contour_of(end)].closed;
     at(end) = {closed ? kClosed : kFree, other_end(end), std::nullopt};
   }
 }
@@ -78,8 +78,8 @@ void CurveChains::extend(std::int32_t end, Pixel to) {
 
 void CurveChains::assemble(const ContourSet& contours, ContourSet& chained) {
   constexpr std::int32_t kNone = -1;
-  chain_of_.assign(contours.contours.size(), kNone);
-  for (std::size_t i = 0; i < contours.contours.size(); ++i) {
+  chain_of_.assign(contours.items.size(), kNone);
+  for (std::size_t i = 0; i < contours.items.size(); ++i) {
     if (chain_of_[i] == kNone) {
       append_chain(contours, chain_start(static_cast<std::int32_t>(2 * i)), chained);
     }
@@ -107,13 +107,13 @@ void CurveChains::append_chain(const ContourSet& contours, std::int32_t start,
     if (end != start) {
       append_line_by(points.back(), at(end).corner, pixel_of(contours, end), points);
     }
-    const auto pixels = contours.pixels(contours.contours[contour_of(end)]);
+    const auto pixels = contours.pixels(contours.items[contour_of(end)]);
     if (end % 2 == 0) {
       points.insert(points.end(), pixels.begin(), pixels.end());
     } else {
       points.insert(points.end(), pixels.rbegin(), pixels.rend());
     }
-    chain_of_[contour_of(end)] = static_cast<std::int32_t>(chained.contours.size());
+    chain_of_[contour_of(end)] = static_cast<std::int32_t>(chained.items.size());
     last = other_end(end);
   }
   if (at(last).partner == kExtended) {
@@ -124,7 +124,7 @@ void CurveChains::append_chain(const ContourSet& contours, std::int32_t start,
     append_line_by(points.back(), at(start).corner, points[first], points);
   }
   const bool closed = at(start).partner == kSeam || at(start).partner == kClosed;
-  chained.contours.push_back(
+  chained.items.push_back(
       {{static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(points.size() - first)},
        closed});
 }

@@ -29,13 +29,13 @@ double distance_over_seam(std::span<const Pixel> pixels, std::size_t last, std::
 }  // namespace
 
 void merge_seam_corners(const ContourSet& contours, double distance_px, CornerSet& corners) {
-  for (std::size_t i = 0; i < contours.contours.size(); ++i) {
+  for (std::size_t i = 0; i < contours.items.size(); ++i) {
     Range& range = corners.ranges[i];
-    if (!contours.contours[i].closed || range.count < 2) {
+    if (!contours.items[i].closed || range.count < 2) {
       continue;
     }
     const auto indices = slice(std::as_const(corners.indices), range);
-    const auto pixels = contours.pixels(contours.contours[i]);
+    const auto pixels = contours.pixels(contours.items[i]);
     if (distance_over_seam(pixels, indices.back(), indices.front()) <= distance_px) {
       --range.count;
     }

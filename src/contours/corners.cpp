@@ -83,13 +83,13 @@ void CornerFinder::prepare(const ContourSet& contours, CornerSet& corners) {
   inner_.clear();
   for (CornerSet* set : {&inner_, &corners}) {
     set->indices.reserve(points);
-    set->ranges.reserve(contours.contours.capacity());
+    set->ranges.reserve(contours.items.capacity());
   }
 }
 
 void CornerFinder::find_curvature_corners(const ContourSet& contours) {
   const std::size_t margin = kernel_.size() / 2;
-  for (const Contour& contour : contours.contours) {
+  for (const Contour& contour : contours.items) {
     const auto pixels = contours.pixels(contour);
     const auto first = static_cast<std::uint32_t>(inner_.indices.size());
     if (pixels.size() > margin) {
@@ -197,9 +197,9 @@ void CornerFinder::add_end_points(const ContourSet& contours, CornerSet& corners
       corners.indices.push_back(static_cast<std::uint32_t>(index));
     }
   };
-  for (std::size_t i = 0; i < contours.contours.size(); ++i) {
-    const auto pixels = contours.pixels(contours.contours[i]);
-    const bool has_ends = options_.end_points && !contours.contours[i].closed;
+  for (std::size_t i = 0; i < contours.items.size(); ++i) {
+    const auto pixels = contours.pixels(contours.items[i]);
+    const bool has_ends = options_.end_points && !contours.items[i].closed;
     const auto first = static_cast<std::uint32_t>(corners.indices.size());
     if (has_ends) {
       add_if_far(pixels.front(), 0);

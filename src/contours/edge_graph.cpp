@@ -80,20 +80,20 @@ unsigned connected_around(unsigned around) {
 
 }  // namespace
 
-Status GraphTracer::run(ImageView<const std::uint8_t> edges, ImageView<const float> strength,
+Status GraphTracer::run(ImageView<const std::uint8_t> edges, ImageView<const float> response,
                         LinkedContours& curves) {
   curves.clear();
   if (Status status = check_ranges(options_, "graph."); !status) {
     return status;
   }
-  if (!same_size(edges, strength)) {
-    return failure(ErrorCode::kInvalidArgument, "strength: its size is not that of the edge map");
+  if (!same_size(edges, response)) {
+    return failure(ErrorCode::kInvalidArgument, "response: its size is not that of the edge map");
   }
   if (edges.size() > std::size_t{1} << 30U) {
     return failure(ErrorCode::kLimitExceeded, "edge map: more than 2^30 pixels");
   }
   prepare(edges, curves);
-  thin(strength);
+  thin(response);
   find_neighbours();
   find_junctions();
   find_segments();
@@ -136,7 +136,7 @@ void GraphTracer::prepare(ImageView<const std::uint8_t> edges, LinkedContours& c
   const std::size_t most_curves =
       most / static_cast<std::size_t>(std::max(options_.min_length_px, 1)) + 1;
   curves.contours.points.reserve(most);
-  curves.contours.contours.reserve(most_curves);
+  curves.contours.items.reserve(most_curves);
   curves.contours.junctions.reserve(most / 4 + 1);
   curves.links.reserve(2 * most_curves);
   order_.clear();
@@ -157,7 +157,7 @@ Pixel GraphTracer::position(std::int32_t pixel) const {
 
 // Round by round, the weakest first. Only what lies beside a pixel that went can have become
 // superfluous since it was looked at.
-void GraphTracer::thin(ImageView<const float> strength) {
+void GraphTracer::thin(ImageView<const float> response) {
   const std::uint8_t* const map = map_.row(0);
   std::vector<std::int32_t>& affected = pixels_;
   affected.assign(order_.begin(), order_.end());
@@ -170,11 +170,11 @@ void GraphTracer::thin(ImageView<const float> strength) {
       label_[static_cast<std::size_t>(pixel)] = kNone;
       if (map[pixel] != 0 && kSuperfluous[set_around(map + pixel, map_.stride())]) {
         const Pixel at = position(pixel);
-        candidates_.push_back({strength(at.x, at.y), pixel});
+        candidates_.push_back({response(at.x, at.y), pixel});
       }
     }
     std::sort(candidates_.begin(), candidates_.end(), [](const Candidate& a, const Candidate& b) {
-      return std::tie(a.strength, a.pixel) < std::tie(b.strength, b.pixel);
+      return std::tie(a.response, a.pixel) < std::tie(b.response, b.pixel);
     });
     affected.clear();
     take_off_candidates();
@@ -400,7 +400,7 @@ std::int32_t GraphTracer::nearest_of_junction(std::int32_t junction, Pixel a, Pi
 void GraphTracer::append_curve(std::int32_t start, LinkedContours& curves) {
   std::vector<Pixel>& points = curves.contours.points;
   const std::size_t first = points.size();
-  const auto number = static_cast<std::int32_t>(curves.contours.contours.size());
+  const auto number = static_cast<std::int32_t>(curves.contours.items.size());
   const auto junction_of = [&](std::int32_t end) {
     return ends_[static_cast<std::size_t>(end)].junction;
   };
@@ -440,7 +440,7 @@ void GraphTracer::append_curve(std::int32_t start, LinkedContours& curves) {
     points.resize(first);
     return;
   }
-  curves.contours.contours.push_back(
+  curves.contours.items.push_back(
       {{static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(count)}, closed});
   // Remember who goes through the junctions.
   for (std::size_t i = 1; i + 1 < count; ++i) {
@@ -453,7 +453,7 @@ void GraphTracer::append_curve(std::int32_t start, LinkedContours& curves) {
 }
 
 void GraphTracer::close_curves(LinkedContours& curves) const {
-  for (Contour& contour : curves.contours.contours) {
+  for (Contour& contour : curves.contours.items) {
     const auto pixels = curves.contours.pixels(contour);
     const double gap =
         std::sqrt(static_cast<double>(squared_distance(pixels.front(), pixels.back())));
@@ -473,8 +473,8 @@ void GraphTracer::connect_ends(LinkedContours& curves) {
           {position(slice(junction_pixels_, junctions_[i]).front())});
     }
   }
-  for (std::uint32_t i = 0; i < curves.contours.contours.size(); ++i) {
-    const Contour& contour = curves.contours.contours[i];
+  for (std::uint32_t i = 0; i < curves.contours.items.size(); ++i) {
+    const Contour& contour = curves.contours.items[i];
     if (contour.closed) {
       continue;
     }

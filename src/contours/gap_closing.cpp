@@ -49,19 +49,19 @@ double step_across(ImageView<const float> frame, double at_x, double at_y, doubl
 
 }  // namespace
 
-Status Bridger::run(const LinkedContours& curves, ImageView<const float> frame,
-                    std::span<const std::uint8_t> worthy, LinkedContours& bridged) {
+Status GapCloser::run(const LinkedContours& curves, ImageView<const float> frame,
+                      std::span<const std::uint8_t> eligible, LinkedContours& bridged) {
   bridged.clear();
-  if (Status status = check_ranges(options_, "bridging."); !status) {
+  if (Status status = check_ranges(options_, "gap_closing."); !status) {
     return status;
   }
-  assert(worthy.size() == curves.contours.contours.size());
+  assert(eligible.size() == curves.contours.items.size());
   prepare(curves, frame, bridged);
   bridges_.clear();
   if (options_.gap_px > 0) {
-    paint(curves, worthy);
+    paint(curves, eligible);
     for (std::int32_t end = 0; end < chains_.ends(); ++end) {
-      if (chains_.is_free(end) && worthy[contour_of(end)] != 0) {
+      if (chains_.is_free(end) && eligible[contour_of(end)] != 0) {
         if (const auto bridge = find_bridge(curves.contours, end, frame)) {
           bridges_.push_back(*bridge);
         }
@@ -75,8 +75,8 @@ Status Bridger::run(const LinkedContours& curves, ImageView<const float> frame,
   return {};
 }
 
-void Bridger::prepare(const LinkedContours& curves, ImageView<const float> frame,
-                      LinkedContours& bridged) {
+void GapCloser::prepare(const LinkedContours& curves, ImageView<const float> frame,
+                        LinkedContours& bridged) {
   const double gap_px = options_.gap_px;
   const auto reach = static_cast<std::int32_t>(gap_px);
   detail::list_offsets(
@@ -85,7 +85,7 @@ void Bridger::prepare(const LinkedContours& curves, ImageView<const float> frame
         return static_cast<double>(squared_distance(offset, {})) <= gap_px * gap_px;
       },
       window_);
-  const std::size_t most_contours = curves.contours.contours.capacity();
+  const std::size_t most_contours = curves.contours.items.capacity();
   chains_.reserve(most_contours);
   chains_.reset(curves.contours);
   bridges_.reserve(2 * most_contours);
@@ -97,20 +97,20 @@ void Bridger::prepare(const LinkedContours& curves, ImageView<const float> frame
                   std::sqrt(static_cast<double>(squared_distance(step, {})))};
   });
   bridged.links.reserve(curves.links.capacity() + 2 * most_contours);
-  bridged.contours.contours.reserve(most_contours);
+  bridged.contours.items.reserve(most_contours);
   bridged.contours.junctions.reserve(curves.contours.junctions.capacity() + 2 * most_contours);
   bridged.contours.points.reserve(curves.contours.points.capacity() +
                                   4 * most_contours * static_cast<std::size_t>(reach + 1));
 }
 
-void Bridger::paint(const LinkedContours& curves, std::span<const std::uint8_t> worthy) {
+void GapCloser::paint(const LinkedContours& curves, std::span<const std::uint8_t> eligible) {
   fill_pixels(owner_.view(), kNone);
-  for (std::size_t i = 0; i < worthy.size(); ++i) {
-    if (worthy[i] == 0) {
+  for (std::size_t i = 0; i < eligible.size(); ++i) {
+    if (eligible[i] == 0) {
       continue;
     }
     std::int32_t place = 0;
-    for (const Pixel pixel : curves.contours.pixels(curves.contours.contours[i])) {
+    for (const Pixel pixel : curves.contours.pixels(curves.contours.items[i])) {
       owner_(pixel.x, pixel.y) = static_cast<std::int32_t>(i);
       place_(pixel.x, pixel.y) = place++;
     }
@@ -118,11 +118,11 @@ void Bridger::paint(const LinkedContours& curves, std::span<const std::uint8_t> 
 }
 
 // Whether a pixel belongs to what an end is the end of.
-bool Bridger::is_own(std::int32_t end, Pixel at) const {
+bool GapCloser::is_own(std::int32_t end, Pixel at) const {
   return owner_(at.x, at.y) == static_cast<std::int32_t>(contour_of(end));
 }
 
-bool Bridger::touches_another(std::int32_t end, Pixel at) const {
+bool GapCloser::touches_another(std::int32_t end, Pixel at) const {
   for (int y = at.y - 1; y <= at.y + 1; ++y) {
     for (int x = at.x - 1; x <= at.x + 1; ++x) {
       if (owner_.view().contains(x, y) && owner_(x, y) != kNone && !is_own(end, {x, y})) {
@@ -134,16 +134,16 @@ bool Bridger::touches_another(std::int32_t end, Pixel at) const {
 }
 
 // Unit vector, or none.
-Bridger::Vector Bridger::direction(Pixel from, Pixel to) {
+GapCloser::Vector GapCloser::direction(Pixel from, Pixel to) {
   const double x = to.x - from.x;
   const double y = to.y - from.y;
   const double length = std::sqrt(x * x + y * y);
   return length > 0 ? Vector{x / length, y / length} : Vector{0, 0};
 }
 
-Bridger::Tip Bridger::tip_of(const ContourSet& contours, std::int32_t end,
-                             ImageView<const float> frame) const {
-  const auto pixels = contours.pixels(contours.contours[contour_of(end)]);
+GapCloser::Tip GapCloser::tip_of(const ContourSet& contours, std::int32_t end,
+                                 ImageView<const float> frame) const {
+  const auto pixels = contours.pixels(contours.items[contour_of(end)]);
   const auto last = static_cast<int>(pixels.size()) - 1;
   const auto at = [&](int i) {
     return pixels[static_cast<std::size_t>(end % 2 == 0 ? i : last - i)];
@@ -157,8 +157,8 @@ Bridger::Tip Bridger::tip_of(const ContourSet& contours, std::int32_t end,
 }
 
 // The curve straight ahead, or the border.
-std::optional<Bridger::Bridge> Bridger::find_target(const Tip& tip, std::int32_t end,
-                                                    double least_cosine) const {
+std::optional<GapCloser::Bridge> GapCloser::find_target(const Tip& tip, std::int32_t end,
+                                                        double least_cosine) const {
   constexpr double kRounding = 1e-9;  // more than that of a cost or a cosine
   const std::int32_t own_place = place_(tip.at.x, tip.at.y);
   const std::int32_t* owner = &owner_(tip.at.x, tip.at.y);
@@ -203,7 +203,7 @@ std::optional<Bridger::Bridge> Bridger::find_target(const Tip& tip, std::int32_t
 }
 
 // Straight ahead, to the last pixels that can be edges: one from the border.
-double Bridger::distance_to_border(const Tip& tip) const {
+double GapCloser::distance_to_border(const Tip& tip) const {
   const auto along = [](int room, double ahead) {
     return ahead > 0 ? std::max(room, 0) / ahead : kNoWay;
   };
@@ -214,8 +214,8 @@ double Bridger::distance_to_border(const Tip& tip) const {
 
 // Where the target is near a free end of its curve, that end is the target, and the two become one
 // curve if their steps agree and either neither turns too far or both head for a corner.
-void Bridger::meet_end(const ContourSet& contours, ImageView<const float> frame, const Tip& tip,
-                       double least_cosine, Bridge& bridge) const {
+void GapCloser::meet_end(const ContourSet& contours, ImageView<const float> frame, const Tip& tip,
+                         double least_cosine, Bridge& bridge) const {
   const std::int32_t owner = owner_(bridge.to.x, bridge.to.y);
   if (owner == kNone) {
     return;
@@ -243,7 +243,7 @@ void Bridger::meet_end(const ContourSet& contours, ImageView<const float> frame,
 }
 
 // Where what two ends head for is the corner of an outline: ahead of both, no farther than a gap.
-std::optional<Pixel> Bridger::corner_of(const Tip& a, const Tip& b) const {
+std::optional<Pixel> GapCloser::corner_of(const Tip& a, const Tip& b) const {
   constexpr double kLeastSine = 0.4;  // of the angle at the corner
   const auto cross = [](const Vector& p, const Vector& q) { return p.x * q.y - p.y * q.x; };
   const double sine = cross(a.ahead, b.ahead);
@@ -261,7 +261,7 @@ std::optional<Pixel> Bridger::corner_of(const Tip& a, const Tip& b) const {
   return inside && corner != a.at && corner != b.at ? std::optional(corner) : std::nullopt;
 }
 
-bool Bridger::step_goes_on(const Tip& tip, Pixel to, ImageView<const float> frame) const {
+bool GapCloser::step_goes_on(const Tip& tip, Pixel to, ImageView<const float> frame) const {
   const double length = std::sqrt(static_cast<double>(squared_distance(tip.at, to)));
   if (length <= kUnseenPx) {
     return true;
@@ -274,11 +274,13 @@ bool Bridger::step_goes_on(const Tip& tip, Pixel to, ImageView<const float> fram
     step += step_across(frame, tip.at.x + along * way.x, tip.at.y + along * way.y, way.x, way.y);
   }
   const double same_side = tip.contrast < 0 ? -step : step;
-  return same_side > 0 && same_side >= options_.least_contrast * std::abs(tip.contrast) * samples;
+  return same_side > 0 &&
+         same_side >= options_.min_contrast_ratio * std::abs(tip.contrast) * samples;
 }
 
-std::optional<Bridger::Bridge> Bridger::find_bridge(const ContourSet& contours, std::int32_t end,
-                                                    ImageView<const float> frame) const {
+std::optional<GapCloser::Bridge> GapCloser::find_bridge(const ContourSet& contours,
+                                                        std::int32_t end,
+                                                        ImageView<const float> frame) const {
   if (touches_another(end, pixel_of(contours, end))) {
     return std::nullopt;
   }
@@ -294,7 +296,7 @@ std::optional<Bridger::Bridge> Bridger::find_bridge(const ContourSet& contours, 
   return bridge;
 }
 
-void Bridger::join(const ContourSet& contours, LinkedContours& bridged) {
+void GapCloser::join(const ContourSet& contours, LinkedContours& bridged) {
   std::sort(bridges_.begin(), bridges_.end(), [](const Bridge& a, const Bridge& b) {
     return std::tie(a.cost, a.end) < std::tie(b.cost, b.end);
   });

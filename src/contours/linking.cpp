@@ -48,7 +48,7 @@ Status Linker::run(const ContourSet& contours, int width, int height, LinkedCont
 void Linker::prepare(const ContourSet& contours, int width, int height, LinkedContours& linked) {
   const double gap_px = options_.gap_px;
   const int reach = reach_of(gap_px);
-  const std::size_t most_contours = contours.contours.capacity();
+  const std::size_t most_contours = contours.items.capacity();
   detail::list_offsets(
       reach,
       [=](Pixel offset) {
@@ -58,7 +58,7 @@ void Linker::prepare(const ContourSet& contours, int width, int height, LinkedCo
   chains_.reserve(most_contours);
   next_at_pixel_.reserve(2 * most_contours);
   linked.links.reserve(2 * most_contours);
-  linked.contours.contours.reserve(most_contours);
+  linked.contours.items.reserve(most_contours);
   linked.contours.junctions.reserve(std::max(2 * most_contours, contours.junctions.capacity()));
   linked.contours.points.reserve(contours.points.capacity() +
                                  most_contours * static_cast<std::size_t>(reach));
@@ -138,13 +138,13 @@ void Linker::assemble(const ContourSet& contours, LinkedContours& linked) {
 // A pixel under a bridge stays with the curve that had it first.
 void Linker::paint_owners(const ContourSet& contours, const LinkedContours& linked) {
   fill_pixels(owner_.view(), kNone);
-  for (std::size_t i = 0; i < linked.contours.contours.size(); ++i) {
-    for (const Pixel pixel : linked.contours.pixels(linked.contours.contours[i])) {
+  for (std::size_t i = 0; i < linked.contours.items.size(); ++i) {
+    for (const Pixel pixel : linked.contours.pixels(linked.contours.items[i])) {
       owner_(pixel.x, pixel.y) = static_cast<std::int32_t>(i);
     }
   }
-  for (std::size_t i = 0; i < contours.contours.size(); ++i) {
-    for (const Pixel pixel : contours.pixels(contours.contours[i])) {
+  for (std::size_t i = 0; i < contours.items.size(); ++i) {
+    for (const Pixel pixel : contours.pixels(contours.items[i])) {
       owner_(pixel.x, pixel.y) = chains_.chain_of(i);
     }
   }

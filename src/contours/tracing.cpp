@@ -33,7 +33,7 @@ bool ends_meet(Pixel first, Pixel last, double gap_px) {
 
 void ContourSet::clear() {
   points.clear();
-  contours.clear();
+  items.clear();
   junctions.clear();
 }
 
@@ -66,7 +66,7 @@ void ContourTracer::prepare(ImageView<const std::uint8_t> edges, ContourSet& con
   const int gap = options_.gap_px;
   min_points_ = shortest_curve(options_, edges.width(), edges.height());
   contours.points.reserve(edges.size());
-  contours.contours.reserve(edges.size() / min_points_);
+  contours.items.reserve(edges.size() / min_points_);
   contours.junctions.reserve(2 * (edges.size() / min_points_));
   visited_.reserve(edges.size());
   detail::list_offsets(
@@ -139,7 +139,7 @@ void ContourTracer::trace(Pixel seed, ContourSet& contours) {
   Contour contour;
   contour.points = {static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(count)};
   contour.closed = ends_meet(points[first], points.back(), options_.closed_gap_px);
-  contours.contours.push_back(contour);
+  contours.items.push_back(contour);
 }
 
 // Appends what is visited behind `from`.
@@ -160,8 +160,8 @@ void ContourTracer::find_junctions(ContourSet& contours) {
   const int border = options_.gap_px + 1;
   owner_.resize(map_.width() + 2, map_.height() + 2);
   fill_pixels(owner_.view(), kNobody);
-  for (std::size_t i = 0; i < contours.contours.size(); ++i) {
-    for (const Pixel pixel : contours.pixels(contours.contours[i])) {
+  for (std::size_t i = 0; i < contours.items.size(); ++i) {
+    for (const Pixel pixel : contours.pixels(contours.items[i])) {
       owner_(pixel.x + border, pixel.y + border) = static_cast<std::int32_t>(i);
     }
   }
@@ -171,10 +171,10 @@ void ContourTracer::find_junctions(ContourSet& contours) {
       return owner != kNobody && owner != self;
     });
   };
-  for (std::size_t i = 0; i < contours.contours.size(); ++i) {
-    const auto pixels = contours.pixels(contours.contours[i]);
+  for (std::size_t i = 0; i < contours.items.size(); ++i) {
+    const auto pixels = contours.pixels(contours.items[i]);
     for (const Pixel end : {pixels.front(), pixels.back()}) {
-      if (!contours.contours[i].closed && touches_another(end, static_cast<std::int32_t>(i))) {
+      if (!contours.items[i].closed && touches_another(end, static_cast<std::int32_t>(i))) {
         contours.junctions.push_back({end});
       }
     }

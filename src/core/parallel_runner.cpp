@@ -14,9 +14,9 @@ namespace {
 
 constexpr int kMaxThreads = 1024;
 
-class SerialRunner final : public Runner {
+class SerialRunner final : public ParallelRunner {
  public:
-  void run(int count, TaskRef task) override {
+  void run(int count, FunctionRef task) override {
     for (int i = 0; i < count; ++i) {
       task(i);
     }
@@ -30,10 +30,10 @@ void allow_more_threads_than_cores() {
       oneapi::tbb::global_control::max_allowed_parallelism, kMaxThreads);
 }
 
-class TbbRunner final : public Runner {
+class TbbRunner final : public ParallelRunner {
  public:
   explicit TbbRunner(int threads) : arena_(threads) {}
-  void run(int count, TaskRef task) override {
+  void run(int count, FunctionRef task) override {
     // The atomics repeat what oneTBB guarantees (the caller's writes are seen by the tasks, theirs
     // by the caller): ThreadSanitizer cannot look into the library.
     std::atomic<int> finished;
@@ -58,7 +58,7 @@ class TbbRunner final : public Runner {
 
 }  // namespace
 
-std::unique_ptr<Runner> make_runner(int threads) {
+std::unique_ptr<ParallelRunner> make_runner(int threads) {
   const int count = threads > 0 ? threads : oneapi::tbb::info::default_concurrency();
   if (count == 1) {
     return std::make_unique<SerialRunner>();

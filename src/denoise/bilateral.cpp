@@ -33,7 +33,7 @@ void BilateralFilter::prepare(int width, int height) {
 }
 
 void BilateralFilter::run(ImageView<const float> in, double range, ImageView<float> out,
-                          Runner& runner) {
+                          ParallelRunner& runner) {
   prepare(in.width(), in.height());
   const int reach = radius();
   const int width = in.width();

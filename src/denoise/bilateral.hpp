@@ -12,18 +12,18 @@ namespace thermedge::detail {
 // Rows first, then columns (Pham & van Vliet 2005).
 class BilateralFilter {
  public:
-  explicit BilateralFilter(const RippleOptions& options) : options_(options) {}
+  explicit BilateralFilter(const BilateralOptions& options) : options_(options) {}
 
   // For frames of this size; run does it otherwise.
   void prepare(int width, int height);
 
   // `in` may be `out`. `range` > 0: of the differences that are evened out, in the units of `in`.
-  void run(ImageView<const float> in, double range, ImageView<float> out, Runner& runner);
+  void run(ImageView<const float> in, double range, ImageView<float> out, ParallelRunner& runner);
 
  private:
   [[nodiscard]] int radius() const;
 
-  RippleOptions options_;
+  BilateralOptions options_;
   std::vector<float> weights_;
   Image<float> padded_, rows_, result_;
 };

@@ -17,7 +17,7 @@ constexpr int kRowsPerTask = 16;
 constexpr int kWeightMargin = kBlockPx;
 
 template <class Process>
-void for_each_row(int rows, Runner& runner, const Process& process) {
+void for_each_row(int rows, ParallelRunner& runner, const Process& process) {
   runner.run((rows + kRowsPerTask - 1) / kRowsPerTask, [&](int task) {
     const int end = std::min((task + 1) * kRowsPerTask, rows);
     for (int y = task * kRowsPerTask; y < end; ++y) {
@@ -98,7 +98,7 @@ void Bm3d::prepare(int width, int height) {
   }
 }
 
-void Bm3d::load(ImageView<const float> in, const NoiseUnits& units, Runner& runner) {
+void Bm3d::load(ImageView<const float> in, const NoiseUnits& units, ParallelRunner& runner) {
   for_each_row(height_, runner, [&](int y) {
     mirrored_row(in, units, y, 0, width_, noisy_.row(y));
     guide_.set_row(noisy_.row(y), y);
@@ -185,14 +185,14 @@ void Bm3d::finish_row(int y) {
   divide_row(sums_.row(y), width_, estimate_.row(y));
 }
 
-void Bm3d::run_stage(Stage stage, Runner& runner) {
+void Bm3d::run_stage(Stage stage, ParallelRunner& runner) {
   runner.run(static_cast<int>(bands_.size()), [&](int index) { filter_band(stage, index); });
   for_each_row(height_, runner, [&](int y) { merge_row(y); });
   for_each_row(height_, runner, [&](int y) { finish_row(y); });
 }
 
 void Bm3d::run(ImageView<const float> in, const NoiseUnits& units, ImageView<float> out,
-               Runner& runner) {
+               ParallelRunner& runner) {
   prepare(in.width(), in.height());
   load(in, units, runner);
   run_stage(Stage::kHard, runner);

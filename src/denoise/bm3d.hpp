@@ -40,7 +40,7 @@ class Bm3d {
 
   // `out` may be `in`.
   void run(ImageView<const float> in, const NoiseUnits& units, ImageView<float> out,
-           Runner& runner);
+           ParallelRunner& runner);
 
  private:
   enum class Stage { kHard, kWiener };
@@ -60,8 +60,8 @@ class Bm3d {
   [[nodiscard]] Band band(int index) const;
   [[nodiscard]] std::span<const int> columns_of(const StageSettings& stage, int y) const;
   void make_columns();
-  void load(ImageView<const float> in, const NoiseUnits& units, Runner& runner);
-  void run_stage(Stage stage, Runner& runner);
+  void load(ImageView<const float> in, const NoiseUnits& units, ParallelRunner& runner);
+  void run_stage(Stage stage, ParallelRunner& runner);
   void filter_band(Stage stage, int index);
   void filter_row(Stage stage, int y, BandScratch& scratch, const Accumulator& sums) const;
   void merge_row(int y);

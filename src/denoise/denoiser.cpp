@@ -86,31 +86,32 @@ struct Denoiser::Impl {
 
   // `burden`: see run_measured.
   Status run(ImageView<const float> in, double sigma, double burden, ImageView<float> out,
-             Runner& runner) {
-    if (!options.shading) {
+             ParallelRunner& runner) {
+    if (!options.detrend) {
       return run_filters(in, sigma, burden, out, runner);
     }
-    shading.measure(in);
-    shading.take_off(in, out);
-    return run_filters(out, sigma, burden, out, runner).map([&] { shading.put_back(out); });
+    detrend.measure(in);
+    detrend.subtract(in, out);
+    return run_filters(out, sigma, burden, out, runner).map([&] { detrend.add(out); });
   }
 
   Status run_filters(ImageView<const float> in, double sigma, double burden, ImageView<float> out,
-                     Runner& runner) {
-    return run_method(in, sigma * options.strength, burden, out, runner).and_then([&]() -> Status {
-      const double range = burden * options.ripple.range_sigmas;
-      if (range > 0) {
-        if (Status status = check_sigma(sigma); !status) {
-          return status;
-        }
-        ripple.run(out, range * sigma, out, runner);
-      }
-      return {};
-    });
+                     ParallelRunner& runner) {
+    return run_method(in, sigma * options.sigma_scale, burden, out, runner)
+        .and_then([&]() -> Status {
+          const double range = burden * options.bilateral.range_sigmas;
+          if (range > 0) {
+            if (Status status = check_sigma(sigma); !status) {
+              return status;
+            }
+            bilateral.run(out, range * sigma, out, runner);
+          }
+          return {};
+        });
   }
 
   Status run_method(ImageView<const float> in, double sigma, double burden, ImageView<float> out,
-                    Runner& runner) {
+                    ParallelRunner& runner) {
     switch (options.method) {
       case DenoiseMethod::kNone:
         copy_pixels(in, out);
@@ -157,15 +158,15 @@ struct Denoiser::Impl {
     } else if (options.method == DenoiseMethod::kBm3d) {
       bm3d.prepare(in.width(), in.height());
     }
-    ripple.prepare(in.width(), in.height());
-    shading.prepare(in.width(), in.height());
+    bilateral.prepare(in.width(), in.height());
+    detrend.prepare(in.width(), in.height());
     copy_pixels(in, out);
     return {};
   }
 
   template <class Filter>
   static Status run_in_noise_units(Filter& filter, ImageView<const float> in, double sigma,
-                                   ImageView<float> out, Runner& runner) {
+                                   ImageView<float> out, ParallelRunner& runner) {
     if (Status status = check_sigma(sigma); !status) {
       return status;
     }
@@ -186,8 +187,8 @@ struct Denoiser::Impl {
   detail::GaussianFilter gaussian{options.gaussian};
   detail::NonLocalMeans nlm{options.nlm};
   detail::Bm3d bm3d{detail::bm3d_settings(options.bm3d)};
-  detail::BilateralFilter ripple{options.ripple};
-  detail::Shading shading;
+  detail::BilateralFilter bilateral{options.bilateral};
+  detail::Detrender detrend;
 };
 
 Denoiser::Denoiser(const DenoiseOptions& options) : impl_(std::make_unique<Impl>(options)) {}
@@ -196,15 +197,15 @@ Denoiser& Denoiser::operator=(Denoiser&&) noexcept = default;
 Denoiser::~Denoiser() = default;
 
 Status Denoiser::run(ImageView<const float> in, double sigma, ImageView<float> out,
-                     Runner& runner) {
+                     ParallelRunner& runner) {
   return impl_->guarded(in, out, [&] { return impl_->run(in, sigma, 1, out, runner); });
 }
 
 Status Denoiser::run_measured(ImageView<const float> in, double sigma, ImageView<float> out,
-                              Runner& runner, double burden) {
+                              ParallelRunner& runner, double burden) {
   const DenoiseMethod method = impl_->options.method;
   const bool needs_noise = method == DenoiseMethod::kNlm || method == DenoiseMethod::kBm3d ||
-                           impl_->options.ripple.range_sigmas > 0;
+                           impl_->options.bilateral.range_sigmas > 0;
   if (sigma == 0 && needs_noise) {
     return impl_->guarded(in, out, [&] { return impl_->copy_clean(in, out); });
   }

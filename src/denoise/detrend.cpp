@@ -9,7 +9,7 @@ constexpr int kBlock = 8;
 
 }  // namespace
 
-void Shading::prepare(int width, int height) {
+void Detrender::prepare(int width, int height) {
   blocks_.resize(width / kBlock, height / kBlock);
   slopes_.reserve(blocks_.size());
   distances_.reserve(blocks_.size());
@@ -17,7 +17,7 @@ void Shading::prepare(int width, int height) {
   rows_.resize(static_cast<std::size_t>(height));
 }
 
-void Shading::measure(ImageView<const float> frame) {
+void Detrender::measure(ImageView<const float> frame) {
   prepare(frame.width(), frame.height());
   fill_pixels(blocks_.view(), 0.0);
   for (int y = 0; y < kBlock * blocks_.height(); ++y) {
@@ -47,7 +47,7 @@ void Shading::measure(ImageView<const float> frame) {
 }
 
 // The parabola of this slope, 0 in the middle.
-void Shading::fill(const Line& slope, std::vector<float>& profile) {
+void Detrender::fill(const Line& slope, std::vector<float>& profile) {
   const double middle = (static_cast<double>(profile.size()) - 1) / 2;
   for (std::size_t i = 0; i < profile.size(); ++i) {
     const double mean_place = (static_cast<double>(i) + middle) / 2;
@@ -55,7 +55,7 @@ void Shading::fill(const Line& slope, std::vector<float>& profile) {
   }
 }
 
-void Shading::apply(ImageView<const float> in, float sign, ImageView<float> out) const {
+void Detrender::apply(ImageView<const float> in, float sign, ImageView<float> out) const {
   for (int y = 0; y < in.height(); ++y) {
     const float of_row = sign * rows_[static_cast<std::size_t>(y)];
     const float* from = in.row(y);
@@ -66,10 +66,10 @@ void Shading::apply(ImageView<const float> in, float sign, ImageView<float> out)
   }
 }
 
-void Shading::take_off(ImageView<const float> in, ImageView<float> out) const {
+void Detrender::subtract(ImageView<const float> in, ImageView<float> out) const {
   apply(in, -1, out);
 }
 
-void Shading::put_back(ImageView<float> frame) const { apply(frame, 1, frame); }
+void Detrender::add(ImageView<float> frame) const { apply(frame, 1, frame); }
 
 }  // namespace thermedge::detail

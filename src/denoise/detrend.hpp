@@ -12,13 +12,13 @@ namespace thermedge::detail {
 // or a wall that grows warmer evenly. Fitted to the differences between the means of neighbouring
 // blocks of 8x8 pixels, robustly, so that objects do not matter. Denoisers that shrink small
 // contrasts make terraces of such a slope, whose edges look real.
-class Shading {
+class Detrender {
  public:
   void prepare(int width, int height);
   void measure(ImageView<const float> frame);
   // `out` may be `in`.
-  void take_off(ImageView<const float> in, ImageView<float> out) const;
-  void put_back(ImageView<float> frame) const;
+  void subtract(ImageView<const float> in, ImageView<float> out) const;
+  void add(ImageView<float> frame) const;
 
  private:
   void fill(const Line& slope, std::vector<float>& profile);

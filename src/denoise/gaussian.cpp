@@ -56,7 +56,7 @@ void GaussianFilter::prepare(int width, int height) {
 }
 
 void GaussianFilter::run(ImageView<const float> in, double share, ImageView<float> out,
-                         Runner& runner) {
+                         ParallelRunner& runner) {
   prepare(in.width(), in.height());
   if (options_.sigma_px > 0) {
     make_weights(share);

@@ -15,7 +15,7 @@ class GaussianFilter {
   void prepare(int width, int height);
 
   // `out` may be `in`. `share`, 0 to 1: of the standard deviation; not of the 5x5 kernel.
-  void run(ImageView<const float> in, double share, ImageView<float> out, Runner& runner);
+  void run(ImageView<const float> in, double share, ImageView<float> out, ParallelRunner& runner);
 
  private:
   [[nodiscard]] int radius() const;

@@ -33,7 +33,7 @@ void NonLocalMeans::prepare(int width, int height) {
 }
 
 void NonLocalMeans::pad(ImageView<const float> in, const NoiseUnits& units, double levels_per_sigma,
-                        Runner& runner) {
+                        ParallelRunner& runner) {
   const int margin = options_.search_px / 2 + options_.patch_px / 2;
   runner.run(tasks_for(values_.height()), [&](int task) {
     const int end = std::min((task + 1) * kRowsPerTask, values_.height());
@@ -49,7 +49,7 @@ void NonLocalMeans::pad(ImageView<const float> in, const NoiseUnits& units, doub
 }
 
 void NonLocalMeans::run(ImageView<const float> in, const NoiseUnits& units, ImageView<float> out,
-                        Runner& runner) {
+                        ParallelRunner& runner) {
   const double half = nlm_patch_half(options_.patch_px);
   const double patch_weight = half * half * half * half;
   const double levels = levels_per_sigma(patch_weight, options_.h_over_sigma);

@@ -21,11 +21,11 @@ class NonLocalMeans {
 
   // `out` may be `in`.
   void run(ImageView<const float> in, const NoiseUnits& units, ImageView<float> out,
-           Runner& runner);
+           ParallelRunner& runner);
 
  private:
   void pad(ImageView<const float> in, const NoiseUnits& units, double levels_per_sigma,
-           Runner& runner);
+           ParallelRunner& runner);
 
   NlmOptions options_;
   Image<float> values_;          // the frame in units of the noise, with mirrored margins

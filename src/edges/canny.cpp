@@ -28,7 +28,7 @@ void count_row(const float* magnitude, int width, double bins_per_unit,
 
 }  // namespace
 
-Result<CannyResult> Canny::run(ImageView<const float> in, Runner& runner) {
+Result<CannyResult> Canny::run(ImageView<const float> in, ParallelRunner& runner) {
   if (in.empty()) {
     return failure(ErrorCode::kInvalidArgument, "frame: it has no pixels");
   }
@@ -63,9 +63,9 @@ void Canny::prepare(int width, int height) {
   group_.reserve(edges_.size());
 }
 
-// task(band, y_begin, y_end): the bands depend on the height alone, not on the Runner.
+// task(band, y_begin, y_end): the bands depend on the height alone, not on the ParallelRunner.
 template <class F>
-void Canny::for_each_band(Runner& runner, F&& task) {
+void Canny::for_each_band(ParallelRunner& runner, F&& task) {
   runner.run(static_cast<int>(bands_.size()), [&](int index) {
     const int y_begin = index * kBandRows;
     const int y_end = std::min(y_begin + kBandRows, edges_.height());
@@ -104,7 +104,7 @@ float Canny::find_gradients(int y_begin, int y_end) {
   return largest;
 }
 
-Canny::Thresholds Canny::choose_thresholds(float largest_magnitude, Runner& runner) {
+Canny::Thresholds Canny::choose_thresholds(float largest_magnitude, ParallelRunner& runner) {
   const auto with_high = [&](double high) {
     return Thresholds{static_cast<float>(options_.low_over_high * high), static_cast<float>(high)};
   };

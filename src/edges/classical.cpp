@@ -123,7 +123,7 @@ ClassicalDetector::ClassicalDetector(const ClassicalOptions& options)
     : options_(options), smoother_(smoothing(options.canny_sigma_px)), canny_(options.canny) {}
 
 Status ClassicalDetector::run(ImageView<const float> levels, ClassicalMethod method,
-                              ImageView<std::uint8_t> edges, Runner& runner) {
+                              ImageView<std::uint8_t> edges, ParallelRunner& runner) {
   Status status = check_options(options_).and_then([&] { return check_frame(levels, edges); });
   if (!status) {
     return status;
@@ -277,7 +277,7 @@ void ClassicalDetector::detect_by_log(ImageView<std::uint8_t> edges) {
 }
 
 Status ClassicalDetector::detect_by_canny(ImageView<const float> levels,
-                                          ImageView<std::uint8_t> edges, Runner& runner) {
+                                          ImageView<std::uint8_t> edges, ParallelRunner& runner) {
   smoothed_.resize(levels.width(), levels.height());
   return smoother_.run(levels, 0, smoothed_, runner)
       .and_then([&] { return canny_.run(smoothed_, runner); })

@@ -183,7 +183,7 @@ struct Kernels {
   KernelSize size;
 };
 
-std::vector<Kernels> make_kernels(const OrientedOptions& options) {
+std::vector<Kernels> make_kernels(const OrientedFilterOptions& options) {
   std::vector<Kernels> kernels;
   for (int i = 0; i <= kKernelSteps; ++i) {
     const double share = 1.0 * i / kKernelSteps;
@@ -208,7 +208,7 @@ double noise_gain(const Derivative& derivative) {
 }
 
 Status check(ImageView<const float> in, double sigma_counts, double noisiness,
-             const OrientedOptions& options) {
+             const OrientedFilterOptions& options) {
   if (in.empty()) {
     return failure(ErrorCode::kInvalidArgument, "frame: it has no pixels");
   }
@@ -234,8 +234,8 @@ Status check(ImageView<const float> in, double sigma_counts, double noisiness,
 }  // namespace
 
 // Pictures with a margin: pixel (x, y) of the frame is at (x + margin, y + margin).
-struct OrientedEdges::Impl {
-  explicit Impl(const OrientedOptions& chosen)
+struct OrientedFilterBank::Impl {
+  explicit Impl(const OrientedFilterOptions& chosen)
       : options(chosen),
         fine(std::clamp(chosen.fine_px, 0.5, 2.0)),
         fine_noise_gain(noise_gain(fine)),
@@ -252,18 +252,18 @@ struct OrientedEdges::Impl {
 
   void prepare(int width, int height);
   template <class F>
-  void for_each_band(Runner& runner, F&& task) const;
+  void for_each_band(ParallelRunner& runner, F&& task) const;
   void differentiate(const Derivative& kernel, int margin, int y_begin, int y_end, float* scratch);
-  void find_fine(Runner& runner, double sigma_counts);
+  void find_fine(ParallelRunner& runner, double sigma_counts);
   void project(int band, int y_begin, int y_end, double sigma_counts);
   void find_side_offsets();
   void suppress(int band, int y_begin, int y_end);
   void merge_fine();
-  [[nodiscard]] float prominence_at(int x, int y) const;
+  [[nodiscard]] float suppressed_response_at(int x, int y) const;
   void classify(int x, int y, float over);
   void classify_row(int y, std::span<std::int32_t> xs, float* over);
 
-  OrientedOptions options;
+  OrientedFilterOptions options;
   Derivative fine;
   double fine_noise_gain;
   std::vector<Kernels> all_kernels;  // from clean to noisy
@@ -279,10 +279,10 @@ struct OrientedEdges::Impl {
   Image<float> scratch;  // rows for each band
   Image<float> fine_magnitude;
   Image<float> projected;  // for each band its rows and those of the lines' margins
-  Image<float> strength;
+  Image<float> response;
   Image<std::int32_t> direction;
-  Image<float> prominence;
-  // Of one row, for each band: pixels on ridges, and their prominences.
+  Image<float> suppressed_response;
+  // Of one row, for each band: pixels on ridges, and their suppressed_responses.
   Image<std::int32_t> places;
   Image<float> of_places;
   std::array<std::int32_t, 2 * kDirections * kSidesPx.size()> side_offsets{};
@@ -292,20 +292,20 @@ struct OrientedEdges::Impl {
   [[nodiscard]] int padding() const { return std::max(largest_radius + line_margin, fine.radius); }
 };
 
-void OrientedEdges::Impl::prepare(int frame_width, int frame_height) {
+void OrientedFilterBank::Impl::prepare(int frame_width, int frame_height) {
   width = frame_width;
   height = frame_height;
   bands = (height + kBandRows - 1) / kBandRows;
-  const int slack = detail::kOrientedSlack;
+  const int slack = detail::kFilterSlack;
   const int line = line_margin;
   padded.resize(width + 2 * padding() + slack, height + 2 * padding());
   gx.resize(width + 2 * line + slack, height + 2 * line);
   gy.resize(gx.width(), gx.height());
   scratch.resize(width + 2 * padding() + slack, 2 * bands);
   projected.resize(gx.width(), bands * (kBandRows + 2 * line));
-  strength.resize(width + slack, height);
+  response.resize(width + slack, height);
   direction.resize(width + slack, height);
-  prominence.resize(width, height);
+  suppressed_response.resize(width, height);
   places.resize(width + slack, bands);
   of_places.resize(width + slack, bands);
   find_side_offsets();
@@ -315,17 +315,17 @@ void OrientedEdges::Impl::prepare(int frame_width, int frame_height) {
   group.reserve(edges.size());
 }
 
-// task(band, y_begin, y_end): the bands depend on the height alone, not on the Runner.
+// task(band, y_begin, y_end): the bands depend on the height alone, not on the ParallelRunner.
 template <class F>
-void OrientedEdges::Impl::for_each_band(Runner& runner, F&& task) const {
+void OrientedFilterBank::Impl::for_each_band(ParallelRunner& runner, F&& task) const {
   runner.run(bands, [&](int band) {
     task(band, band * kBandRows, std::min((band + 1) * kBandRows, height));
   });
 }
 
 // Fills gx and gy, whose margin is `margin`, for the rows of the frame from y_begin to y_end.
-void OrientedEdges::Impl::differentiate(const Derivative& kernel, int margin, int y_begin,
-                                        int y_end, float* rows) {
+void OrientedFilterBank::Impl::differentiate(const Derivative& kernel, int margin, int y_begin,
+                                             int y_end, float* rows) {
   const int wide = width + 2 * (margin + kernel.radius);
   float* const smoothed = rows;
   float* const sloped = rows + scratch.stride();
@@ -344,7 +344,7 @@ void OrientedEdges::Impl::differentiate(const Derivative& kernel, int margin, in
 }
 
 // Leaves in fine_classes where the fine derivative decides.
-void OrientedEdges::Impl::find_fine(Runner& runner, double sigma_counts) {
+void OrientedFilterBank::Impl::find_fine(ParallelRunner& runner, double sigma_counts) {
   for_each_band(runner, [&](int band, int y_begin, int y_end) {
     differentiate(fine, 0, y_begin, y_end, scratch.row(2 * band));
     for (int y = y_begin; y < y_end; ++y) {
@@ -369,7 +369,7 @@ void OrientedEdges::Impl::find_fine(Runner& runner, double sigma_counts) {
   detail::apply_hysteresis(fine_classes.view().crop(0, 0, width, height), kFineGroupPx, group);
 }
 
-void OrientedEdges::Impl::project(int band, int y_begin, int y_end, double sigma_counts) {
+void OrientedFilterBank::Impl::project(int band, int y_begin, int y_end, double sigma_counts) {
   const int margin = line_margin;
   const int first_row = band * (kBandRows + 2 * margin);  // of this band in `projected`
   const auto per_sigma = static_cast<float>(1 / sigma_counts);
@@ -388,18 +388,18 @@ void OrientedEdges::Impl::project(int band, int y_begin, int y_end, double sigma
     for (int y = y_begin; y < y_end; ++y) {
       detail::keep_stronger_row(projected.row(first_row + y - y_begin + margin) + margin,
                                 offsets.data(), kernels->weights.weights.data(),
-                                kernels->weights.radius, i, kDirections, width, strength.row(y),
+                                kernels->weights.radius, i, kDirections, width, response.row(y),
                                 direction.row(y));
     }
   }
 }
 
-// By how much the strength of a pixel is over that of both sides; a slope is as strong all over.
-float OrientedEdges::Impl::prominence_at(int x, int y) const {
+// By how much the response of a pixel is over that of both sides; a slope is as strong all over.
+float OrientedFilterBank::Impl::suppressed_response_at(int x, int y) const {
   const std::int32_t own = direction(x, y);
   const auto at = [&](int side_x, int side_y) {
     const int turn = std::abs(direction(side_x, side_y) - own);
-    return turn <= 3 || turn >= 2 * kDirections - 3 ? strength(side_x, side_y) : 0.0F;
+    return turn <= 3 || turn >= 2 * kDirections - 3 ? response(side_x, side_y) : 0.0F;
   };
   const Across& step = steps[static_cast<std::size_t>(own)];
   const int reach = kSidesPx[sides - 1];
@@ -416,12 +416,12 @@ float OrientedEdges::Impl::prominence_at(int x, int y) const {
   for (std::size_t i = 1; i < sides; ++i) {
     least = std::min(least, side(i, 1) + side(i, -1));
   }
-  return strength(x, y) - 0.5F * least;
+  return response(x, y) - 0.5F * least;
 }
 
-// Sets the prominence and the class, before hysteresis, of a pixel on a ridge.
-void OrientedEdges::Impl::classify(int x, int y, float over) {
-  prominence(x, y) = over;
+// Sets the suppressed_response and the class, before hysteresis, of a pixel on a ridge.
+void OrientedFilterBank::Impl::classify(int x, int y, float over) {
+  suppressed_response(x, y) = over;
   edges(x, y) = over > static_cast<float>(options.high)  ? detail::kStrongEdge
                 : over > static_cast<float>(options.low) ? detail::kWeakEdge
                                                          : detail::kNoEdge;
@@ -429,14 +429,14 @@ void OrientedEdges::Impl::classify(int x, int y, float over) {
 
 // Classifies the pixels of row y at these places, in ascending order. Away from the border, where
 // nothing is mirrored, all together.
-void OrientedEdges::Impl::classify_row(int y, std::span<std::int32_t> xs, float* over) {
+void OrientedFilterBank::Impl::classify_row(int y, std::span<std::int32_t> xs, float* over) {
   const int reach = kSidesPx[sides - 1];
   const bool inside = y >= reach && y < height - reach;
   const auto begin = std::lower_bound(xs.begin(), xs.end(), inside ? reach : width);
   const auto end = std::lower_bound(begin, xs.end(), width - reach);
   const auto one_by_one = [&](auto from, auto to) {
     for (auto x = from; x != to; ++x) {
-      classify(*x, y, prominence_at(*x, y));
+      classify(*x, y, suppressed_response_at(*x, y));
     }
   };
   one_by_one(xs.begin(), begin);
@@ -446,46 +446,46 @@ void OrientedEdges::Impl::classify_row(int y, std::span<std::int32_t> xs, float*
     return;
   }
   const std::int32_t* first = xs.data() + (begin - xs.begin());
-  detail::prominence_at_places(strength.row(y), direction.row(y), side_offsets.data(),
-                               static_cast<int>(sides), first, count, over);
+  detail::suppressed_responses_at(response.row(y), direction.row(y), side_offsets.data(),
+                                  static_cast<int>(sides), first, count, over);
   for (int i = 0; i < count; ++i) {
     classify(first[i], y, over[i]);
   }
 }
 
 // Where the sides of a pixel lie, in elements from it.
-void OrientedEdges::Impl::find_side_offsets() {
+void OrientedFilterBank::Impl::find_side_offsets() {
   for (std::size_t side = 0; side < kSidesPx.size(); ++side) {
     for (std::size_t i = 0; i < steps.size(); ++i) {
       side_offsets[side * steps.size() + i] = static_cast<std::int32_t>(
-          steps[i].side_y[side] * strength.stride() + steps[i].side_x[side]);
+          steps[i].side_y[side] * response.stride() + steps[i].side_x[side]);
     }
   }
 }
 
 // Leaves in `edges` the class of each pixel before hysteresis.
-void OrientedEdges::Impl::suppress(int band, int y_begin, int y_end) {
+void OrientedFilterBank::Impl::suppress(int band, int y_begin, int y_end) {
   const auto low = static_cast<float>(options.low);
   const detail::DiagonalShares shares = {steps[0].share, steps[1].share, steps[2].share,
                                          steps[3].share};
   std::int32_t* found = places.row(band);
   for (int y = y_begin; y < y_end; ++y) {
     std::fill_n(edges.row(y), width, detail::kNoEdge);
-    std::fill_n(prominence.row(y), width, 0.0F);
+    std::fill_n(suppressed_response.row(y), width, 0.0F);
     if (y == 0 || y == height - 1 || width < 3) {
       continue;
     }
-    const int count = detail::find_ridges_row(strength.row(y) + 1, strength.stride(),
+    const int count = detail::find_ridges_row(response.row(y) + 1, response.stride(),
                                               direction.row(y) + 1, shares, low, width - 2, found);
     std::transform(found, found + count, found, [](std::int32_t x) { return x + 1; });
     // Kernels look at whole vectors.
-    std::fill_n(found + count, detail::kOrientedSlack, count > 0 ? found[count - 1] : 0);
+    std::fill_n(found + count, detail::kFilterSlack, count > 0 ? found[count - 1] : 0);
     classify_row(y, {found, static_cast<std::size_t>(count)}, of_places.row(band));
   }
 }
 
 // Near fine edges only they are edges.
-void OrientedEdges::Impl::merge_fine() {
+void OrientedFilterBank::Impl::merge_fine() {
   constexpr std::array kHalfWidths = {0, 1, 2, 1, 0};  // of the rows of a disc of 2 px
   constexpr int kReach = 2;
   const auto for_each_fine = [&](auto&& task) {
@@ -507,17 +507,17 @@ void OrientedEdges::Impl::merge_fine() {
       }
     }
   });
-  for_each_fine([&](int x, int y) { classify(x, y, prominence_at(x, y)); });
+  for_each_fine([&](int x, int y) { classify(x, y, suppressed_response_at(x, y)); });
 }
 
-OrientedEdges::OrientedEdges(const OrientedOptions& options)
+OrientedFilterBank::OrientedFilterBank(const OrientedFilterOptions& options)
     : impl_(std::make_unique<Impl>(options)) {}
-OrientedEdges::OrientedEdges(OrientedEdges&&) noexcept = default;
-OrientedEdges& OrientedEdges::operator=(OrientedEdges&&) noexcept = default;
-OrientedEdges::~OrientedEdges() = default;
+OrientedFilterBank::OrientedFilterBank(OrientedFilterBank&&) noexcept = default;
+OrientedFilterBank& OrientedFilterBank::operator=(OrientedFilterBank&&) noexcept = default;
+OrientedFilterBank::~OrientedFilterBank() = default;
 
-Result<OrientedResult> OrientedEdges::run(ImageView<const float> in, double sigma_counts,
-                                          double noisiness, Runner& runner) {
+Result<OrientedFilterResult> OrientedFilterBank::run(ImageView<const float> in, double sigma_counts,
+                                                     double noisiness, ParallelRunner& runner) {
   Impl& self = *impl_;
   if (Status status = check(in, sigma_counts, noisiness, self.options); !status) {
     return tl::unexpected(status.error());
@@ -546,9 +546,9 @@ Result<OrientedResult> OrientedEdges::run(ImageView<const float> in, double sigm
     self.merge_fine();
   }
   detail::apply_hysteresis(self.edges.view(), 1, self.group);
-  return OrientedResult{self.strength.view().crop(0, 0, self.width, self.height),
-                        self.direction.view().crop(0, 0, self.width, self.height), self.prominence,
-                        self.edges, self.kernels->size};
+  return OrientedFilterResult{self.response.view().crop(0, 0, self.width, self.height),
+                              self.direction.view().crop(0, 0, self.width, self.height),
+                              self.suppressed_response, self.edges, self.kernels->size};
 }
 
 }  // namespace thermedge

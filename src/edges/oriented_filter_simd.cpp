@@ -12,7 +12,7 @@ namespace thermedge::detail {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-using F32 = hn::CappedTag<float, kOrientedSlack>;
+using F32 = hn::CappedTag<float, kFilterSlack>;
 using Floats = hn::Vec<F32>;
 constexpr int kLanes = static_cast<int>(hn::MaxLanes(F32()));
 
@@ -48,7 +48,7 @@ void project_row(const float* gx, const float* gy, float a, float b, int width, 
 }
 
 void keep_stronger_row(const float* centre, const std::ptrdiff_t* offsets, const float* weights,
-                       int radius, int index, int reverse, int width, float* strength,
+                       int radius, int index, int reverse, int width, float* response,
                        std::int32_t* direction) {
   const F32 d;
   const hn::RebindToSigned<F32> di;
@@ -64,13 +64,13 @@ void keep_stronger_row(const float* centre, const std::ptrdiff_t* offsets, const
     const auto size = hn::Abs(sum);
     const auto signed_self = hn::IfThenElse(hn::RebindMask(di, sum < hn::Zero(d)), reversed, self);
     if (index == 0) {
-      hn::StoreU(size, d, strength + x);
+      hn::StoreU(size, d, response + x);
       hn::StoreU(signed_self, di, direction + x);
       continue;
     }
-    const auto before = hn::LoadU(d, strength + x);
+    const auto before = hn::LoadU(d, response + x);
     const auto is_stronger = hn::RebindMask(di, size > before);
-    hn::StoreU(hn::Max(size, before), d, strength + x);
+    hn::StoreU(hn::Max(size, before), d, response + x);
     hn::StoreU(hn::IfThenElse(is_stronger, signed_self, hn::LoadU(di, direction + x)), di,
                direction + x);
   }
@@ -93,7 +93,7 @@ HWY_INLINE Floats share_of(Ints direction, const DiagonalShares& shares) {
                      hn::IfThenElse(is(2), hn::Set(d, shares[2]), hn::Set(d, shares[3]))));
 }
 
-int find_ridges_row(const float* strength, std::ptrdiff_t stride, const std::int32_t* direction,
+int find_ridges_row(const float* response, std::ptrdiff_t stride, const std::int32_t* direction,
                     const DiagonalShares& shares, float low, int count, std::int32_t* places) {
   const F32 d;
   const I32 di;
@@ -104,7 +104,7 @@ int find_ridges_row(const float* strength, std::ptrdiff_t stride, const std::int
     const auto folded = hn::IfThenElse(any < half_turn, any, any - half_turn);
     const auto share = share_of(folded, shares);
     const auto is_below = [&](int limit) { return hn::RebindMask(d, folded < hn::Set(di, limit)); };
-    const auto at = [&](int dx, int dy) { return hn::LoadU(d, strength + x + dx + dy * stride); };
+    const auto at = [&](int dx, int dy) { return hn::LoadU(d, response + x + dx + dy * stride); };
     // Ahead (sign 1) or behind (-1): the neighbour at a side, and from it towards the diagonal one.
     const auto across = [&](int sign) {
       const auto side = hn::IfThenElse(is_below(3), at(0, sign),
@@ -123,9 +123,9 @@ int find_ridges_row(const float* strength, std::ptrdiff_t stride, const std::int
   return found;
 }
 
-void prominence_at_places(const float* strength, const std::int32_t* direction,
-                          const std::int32_t* offsets, int sides, const std::int32_t* places,
-                          int count, float* out) {
+void suppressed_responses_at(const float* response, const std::int32_t* direction,
+                             const std::int32_t* offsets, int sides, const std::int32_t* places,
+                             int count, float* out) {
   const F32 d;
   const I32 di;
   for (int i = 0; i < count; i += kLanes) {
@@ -135,7 +135,7 @@ void prominence_at_places(const float* strength, const std::int32_t* direction,
       const auto turn = hn::Abs(hn::GatherIndex(di, direction, side) - own);
       const auto differs = hn::And(turn > hn::Set(di, 3), turn < hn::Set(di, 21));
       return hn::IfThenElse(hn::RebindMask(d, differs), hn::Zero(d),
-                            hn::GatherIndex(d, strength, side));
+                            hn::GatherIndex(d, response, side));
     };
     auto least = hn::Zero(d);
     for (int side = 0; side < sides; ++side) {
@@ -143,7 +143,7 @@ void prominence_at_places(const float* strength, const std::int32_t* direction,
       const auto both = at(place + offset) + at(place - offset);
       least = side == 0 ? both : hn::Min(least, both);
     }
-    hn::StoreU(hn::GatherIndex(d, strength, place) - hn::Set(d, 0.5F) * least, d, out + i);
+    hn::StoreU(hn::GatherIndex(d, response, place) - hn::Set(d, 0.5F) * least, d, out + i);
   }
 }
 
@@ -159,7 +159,7 @@ HWY_EXPORT(magnitude_row);
 HWY_EXPORT(project_row);
 HWY_EXPORT(keep_stronger_row);
 HWY_EXPORT(find_ridges_row);
-HWY_EXPORT(prominence_at_places);
+HWY_EXPORT(suppressed_responses_at);
 
 void odd_filter_row(const float* centre, std::ptrdiff_t step, const float* weights, int radius,
                     int width, float* out) {
@@ -175,23 +175,23 @@ void project_row(const float* gx, const float* gy, float a, float b, int width, 
 }
 
 void keep_stronger_row(const float* centre, const std::ptrdiff_t* offsets, const float* weights,
-                       int radius, int index, int reverse, int width, float* strength,
+                       int radius, int index, int reverse, int width, float* response,
                        std::int32_t* direction) {
   HWY_DYNAMIC_DISPATCH(keep_stronger_row)
-  (centre, offsets, weights, radius, index, reverse, width, strength, direction);
+  (centre, offsets, weights, radius, index, reverse, width, response, direction);
 }
 
-int find_ridges_row(const float* strength, std::ptrdiff_t stride, const std::int32_t* direction,
+int find_ridges_row(const float* response, std::ptrdiff_t stride, const std::int32_t* direction,
                     const DiagonalShares& shares, float low, int count, std::int32_t* places) {
-  return HWY_DYNAMIC_DISPATCH(find_ridges_row)(strength, stride, direction, shares, low, count,
+  return HWY_DYNAMIC_DISPATCH(find_ridges_row)(response, stride, direction, shares, low, count,
                                                places);
 }
 
-void prominence_at_places(const float* strength, const std::int32_t* direction,
-                          const std::int32_t* offsets, int sides, const std::int32_t* places,
-                          int count, float* out) {
-  HWY_DYNAMIC_DISPATCH(prominence_at_places)
-  (strength, direction, offsets, sides, places, count, out);
+void suppressed_responses_at(const float* response, const std::int32_t* direction,
+                             const std::int32_t* offsets, int sides, const std::int32_t* places,
+                             int count, float* out) {
+  HWY_DYNAMIC_DISPATCH(suppressed_responses_at)
+  (response, direction, offsets, sides, places, count, out);
 }
 
 }  // namespace thermedge::detail

@@ -71,14 +71,14 @@ bool is_dead(Frame frame, int x, int y, int limit) {
   return above > limit + kOpticsRatio * hill || below > limit + kOpticsRatio * hollow;
 }
 
-int limit_counts(double sigma_counts, const NucOptions& options) {
-  const double limit = std::max(sigma_counts, 1.0) * options.dead_pixel_sigmas;
+int limit_counts(double sigma_counts, const BadPixelOptions& options) {
+  const double limit = std::max(sigma_counts, 1.0) * options.threshold_sigmas;
   constexpr double kLargest = std::numeric_limits<std::uint16_t>::max();
   return static_cast<int>(std::clamp(limit, 0.0, kLargest));
 }
 
 // Collects candidates, all pixels of the border among them, then drops those that are none.
-void find_dead_pixels(Frame frame, int limit, std::vector<DeadPixel>& dead) {
+void find_bad_pixels(Frame frame, int limit, std::vector<BadPixel>& dead) {
   const int width = frame.width();
   const int height = frame.height();
   for (int y = 0; y < height; ++y) {
@@ -93,26 +93,26 @@ void find_dead_pixels(Frame frame, int limit, std::vector<DeadPixel>& dead) {
                             dead);
     dead.push_back({width - 1, y});
   }
-  std::erase_if(dead, [&](DeadPixel pixel) { return !is_dead(frame, pixel.x, pixel.y, limit); });
+  std::erase_if(dead, [&](BadPixel pixel) { return !is_dead(frame, pixel.x, pixel.y, limit); });
 }
 
-bool contains(const std::vector<DeadPixel>& dead, int x, int y) {
+bool contains(const std::vector<BadPixel>& dead, int x, int y) {
   return std::binary_search(
-      dead.begin(), dead.end(), DeadPixel{x, y},
-      [](const DeadPixel& a, const DeadPixel& b) { return a.y != b.y ? a.y < b.y : a.x < b.x; });
+      dead.begin(), dead.end(), BadPixel{x, y},
+      [](const BadPixel& a, const BadPixel& b) { return a.y != b.y ? a.y < b.y : a.x < b.x; });
 }
 
 }  // namespace
 
-void correct_dead_pixels(ImageView<std::uint16_t> frame, double sigma_counts,
-                         const NucOptions& options, std::vector<DeadPixel>& dead) {
+void replace_bad_pixels(ImageView<std::uint16_t> frame, double sigma_counts,
+                        const BadPixelOptions& options, std::vector<BadPixel>& dead) {
   dead.clear();
   if (std::min(frame.width(), frame.height()) < kSmallestSide) {
     return;
   }
-  find_dead_pixels(frame, limit_counts(sigma_counts, options), dead);
+  find_bad_pixels(frame, limit_counts(sigma_counts, options), dead);
   const auto is_good = [&](int x, int y) { return !contains(dead, x, y); };
-  for (const DeadPixel& pixel : dead) {
+  for (const BadPixel& pixel : dead) {
     Values values = ring(frame, pixel.x, pixel.y, 1, is_good);
     if (values.empty()) {
       values = ring(frame, pixel.x, pixel.y, 2, is_good);

@@ -44,7 +44,7 @@ hn::Vec<D> excess_over_neighbours(D d, const CountRows& rows, hn::Vec<D> limit) 
 // Looks at `lanes` pixels from column `first`; those before column `next` are known already.
 template <class D>
 void append_from_vector(D d, const CountRows& rows, int first, int next, int y, int limit,
-                        std::vector<DeadPixel>& outliers) {
+                        std::vector<BadPixel>& outliers) {
   const CountRows here{rows.above + first - 1, rows.row + first - 1, rows.below + first - 1};
   const auto limits = hn::Set(d, static_cast<std::uint16_t>(limit));
   const auto excess = excess_over_neighbours(d, here, limits);
@@ -63,7 +63,7 @@ void append_from_vector(D d, const CountRows& rows, int first, int next, int y, 
 // A row of fewer pixels than a vector: the same on copies with room behind them.
 template <class D>
 void append_from_short_row(D d, const CountRows& rows, int width, int y, int limit,
-                           std::vector<DeadPixel>& outliers) {
+                           std::vector<BadPixel>& outliers) {
   constexpr int kRoom = HWY_MAX_BYTES / sizeof(std::uint16_t) + 2;
   std::uint16_t copies[3][kRoom] = {};
   std::copy_n(rows.above, width, copies[0]);
@@ -76,7 +76,7 @@ void append_from_short_row(D d, const CountRows& rows, int width, int y, int lim
 }
 
 void append_outliers(const CountRows& rows, int width, int y, int limit,
-                     std::vector<DeadPixel>& outliers) {
+                     std::vector<BadPixel>& outliers) {
   const hn::ScalableTag<std::uint16_t> d;
   const auto lanes = static_cast<int>(hn::Lanes(d));
   if (width - 2 < lanes) {
@@ -100,7 +100,7 @@ namespace thermedge::detail {
 HWY_EXPORT(append_outliers);
 
 void append_outliers(const CountRows& rows, int width, int y, int limit,
-                     std::vector<DeadPixel>& outliers) {
+                     std::vector<BadPixel>& outliers) {
   HWY_DYNAMIC_DISPATCH(append_outliers)(rows, width, y, limit, outliers);
 }
 

@@ -12,6 +12,6 @@ namespace thermedge::detail {
 // are more than `limit` (0 .. 65535) above the second largest or below the second smallest of their
 // eight neighbours. Reads exactly `width` elements of each row, at least 3.
 void append_outliers(const CountRows& rows, int width, int y, int limit,
-                     std::vector<DeadPixel>& outliers);
+                     std::vector<BadPixel>& outliers);
 
 }  // namespace thermedge::detail

@@ -419,7 +419,7 @@ StripeFinder& StripeFinder::operator=(StripeFinder&&) noexcept = default;
 StripeFinder::~StripeFinder() = default;
 
 void StripeFinder::measure(ImageView<const std::uint16_t> frame, double sigma_counts,
-                           Runner& runner, StripeOffsets& offsets) {
+                           ParallelRunner& runner, StripeOffsets& offsets) {
   offsets.columns.clear();
   offsets.rows.clear();
   if (std::min(frame.width(), frame.height()) < kSmallestSide) {

@@ -83,13 +83,13 @@ struct Detector::Impl {
   explicit Impl(const DetectorOptions& chosen)
       : options(chosen),
         runner(make_runner(chosen.threads)),
-        corrector(chosen.nuc),
+        preprocessor(chosen.nuc),
         denoiser(chosen.denoise),
         canny(chosen.canny),
         oriented(chosen.oriented),
         tracer(chosen.contours),
         graph(chosen.graph),
-        bridger(chosen.bridging),
+        gap_closer(chosen.gap_closing),
         corner_finder(chosen.corners),
         linker(chosen.linking),
         scorer(chosen.scoring),
@@ -114,15 +114,15 @@ struct Detector::Impl {
   Status find_corners();
 
   DetectorOptions options;
-  std::unique_ptr<Runner> runner;
+  std::unique_ptr<ParallelRunner> runner;
   NoiseEstimator noise_estimator;
-  FrameCorrector corrector;
+  Preprocessor preprocessor;
   Denoiser denoiser;
   Canny canny;
-  OrientedEdges oriented;
+  OrientedFilterBank oriented;
   ContourTracer tracer;
   GraphTracer graph;
-  Bridger bridger;
+  GapCloser gap_closer;
   CornerFinder corner_finder;
   Linker linker;
   Scorer scorer;
@@ -131,12 +131,12 @@ struct Detector::Impl {
 
   Image<std::uint8_t> levels, denoised, edge_map;
   Image<float> working;
-  Image<std::uint16_t> rounded;       // denoised counts
-  OrientedResult oriented_found;      // views of what `oriented` holds
-  std::vector<std::uint16_t> sample;  // of the counts
+  Image<std::uint16_t> rounded;         // denoised counts
+  OrientedFilterResult oriented_found;  // views of what `oriented` holds
+  std::vector<std::uint16_t> sample;    // of the counts
   ContourSet contours;
-  LinkedContours traced;             // by the graph, before bridging
-  std::vector<std::uint8_t> worthy;  // of its curves: to be bridged
+  LinkedContours traced;               // by the graph, before gap_closing
+  std::vector<std::uint8_t> eligible;  // of its curves: to be bridged
   LinkedContours linked;
   CornerSet corners;
   Detection result;
@@ -180,17 +180,17 @@ Status Detector::Impl::detect_oriented(int bits) {
       .and_then([&] {
         const Stopwatch watch(result.ms.canny);
         return oriented.run(working, unit, noisiness, *runner)
-            .map([&](const OrientedResult& edges) {
+            .map([&](const OrientedFilterResult& edges) {
               oriented_found = edges;
               result.edge_map = edges.edges;
               result.kernel_px = edges.kernel;
-              result.canny_low = options.oriented.low;
-              result.canny_high = options.oriented.high;
+              result.threshold_low = options.oriented.low;
+              result.threshold_high = options.oriented.high;
             });
       })
       .and_then([&] {
         const Stopwatch watch(result.ms.contours);
-        return graph.run(oriented_found.edges, oriented_found.strength, traced);
+        return graph.run(oriented_found.edges, oriented_found.response, traced);
       })
       .and_then([&] {
         const Stopwatch watch(result.ms.linking);
@@ -202,13 +202,13 @@ Status Detector::Impl::detect_oriented(int bits) {
       })
       .and_then([&] {
         const Stopwatch watch(result.ms.scoring);
-        return scorer.run(linked, corners, oriented_found.prominence, result.edges);
+        return scorer.run(linked, corners, oriented_found.suppressed_response, result.edges);
       })
       .and_then([&] {
         const Stopwatch watch(result.ms.measure);
         measure_edges(result.corrected, result.sigma_counts, oriented_found.direction,
                       {stripes_left(*result.stripes, sigma)}, result.edges);
-        refine_positions(oriented_found.strength, oriented_found.kernel, sigma / unit,
+        refine_positions(oriented_found.response, oriented_found.kernel, sigma / unit,
                          result.edges);
         return selector.run(result.edges).map([&] {
           selector.keep_junctions(result.width, result.height, result.edges);
@@ -218,14 +218,14 @@ Status Detector::Impl::detect_oriented(int bits) {
 
 // What is too weak to be kept is not worth a bridge.
 Status Detector::Impl::bridge() {
-  worthy.reserve(traced.contours.contours.capacity());
-  worthy.clear();
-  for (const Contour& contour : traced.contours.contours) {
+  eligible.reserve(traced.contours.items.capacity());
+  eligible.clear();
+  for (const Contour& contour : traced.contours.items) {
     const double score =
-        prominence_score(traced.contours.pixels(contour), oriented_found.prominence);
-    worthy.push_back(score >= options.selection.min_score ? 1 : 0);
+        saliency(traced.contours.pixels(contour), oriented_found.suppressed_response);
+    eligible.push_back(score >= options.selection.min_score ? 1 : 0);
   }
-  return bridger.run(traced, working, worthy, linked);
+  return gap_closer.run(traced, working, eligible, linked);
 }
 
 // From the 0.1st to the 99.9th percentile; every 16th pixel tells.
@@ -252,8 +252,8 @@ Status Detector::Impl::denoise_counts(int bits, double burden) {
   const Stopwatch watch(result.ms.denoise);
   working.resize(result.width, result.height);
   copy_pixels(result.corrected, working.view());
-  // Where noise is next to no burden, a Gaussian only blurs; and the ripple that BM3D leaves is a
-  // matter of strong noise: taking it off steepens slopes.
+  // Where noise is next to no burden, a Gaussian only blurs; and the bilateral that BM3D leaves is
+  // a matter of strong noise: taking it off steepens slopes.
   if (Status status = denoiser.run_measured(working, result.sigma_counts, working, *runner, burden);
       !status) {
     return status;
@@ -301,7 +301,7 @@ void Detector::Impl::begin(int width, int height) {
   result.noise = {};
   result.sigma_counts = 0;
   result.ms = {};
-  result.dead_pixels = {};
+  result.bad_pixels = {};
   result.stripes = nullptr;
   result.corrected = {};
   result.levels = {};
@@ -310,8 +310,8 @@ void Detector::Impl::begin(int width, int height) {
   result.range_counts = 0;
   result.unit_counts = 0;
   result.kernel_px = {0, 0};
-  result.canny_low = 0;
-  result.canny_high = 0;
+  result.threshold_low = 0;
+  result.threshold_high = 0;
   result.contours = options.edges == EdgeMethod::kOriented ? &traced.contours : &contours;
   result.linked = &linked;
 }
@@ -323,9 +323,9 @@ void Detector::Impl::correct(ImageView<const std::uint16_t> frame) {
     result.noise = noise_estimator.measure(frame);
   }
   const Stopwatch watch(result.ms.nuc);
-  result.corrected = corrector.run(frame, result.noise.sigma_counts, *runner);
-  result.dead_pixels = corrector.dead_pixels();
-  result.stripes = &corrector.stripes();
+  result.corrected = preprocessor.run(frame, result.noise.sigma_counts, *runner);
+  result.bad_pixels = preprocessor.bad_pixels();
+  result.stripes = &preprocessor.stripes();
 }
 
 // Algorithm 1. 8-bit pictures are grey levels already.
@@ -359,8 +359,8 @@ Status Detector::Impl::find_edge_pixels() {
   const Stopwatch watch(result.ms.canny);
   return canny.run(working, *runner).map([&](const CannyResult& found) {
     result.edge_map = found.edges;
-    result.canny_low = found.low;
-    result.canny_high = found.high;
+    result.threshold_low = found.low;
+    result.threshold_high = found.high;
   });
 }
 
@@ -384,8 +384,8 @@ Status Detector::Impl::connect() {
     fill_pixels(working.view(), 1.0F);  // all pixels are equally strong
     return timed(ms.contours, [&] { return graph.run(result.edge_map, working, traced); })
         .and_then([&] {
-          worthy.assign(traced.contours.contours.size(), 0);  // no frame tells what gaps hold
-          return bridger.run(traced, working, worthy, linked);
+          eligible.assign(traced.contours.items.size(), 0);  // no frame tells what gaps hold
+          return gap_closer.run(traced, working, eligible, linked);
         });
   };
   return (options.edges == EdgeMethod::kOriented ? follow_graph() : walk())

@@ -71,13 +71,14 @@ void draw_mask(const EdgeSet& edges, ImageView<std::uint8_t> mask) {
 void draw_labels(const EdgeSet& edges, ImageView<std::uint16_t> labels) {
   constexpr std::int32_t kLargest = std::numeric_limits<std::uint16_t>::max();
   draw(edges, edges.kept, labels, [](const Edge& edge) {
-    return static_cast<std::uint16_t>(std::min(edge.id, kLargest - 1) + 1);
+    return static_cast<std::uint16_t>(std::min(edge.index, kLargest - 1) + 1);
   });
 }
 
 void draw_strength(const EdgeSet& edges, ImageView<std::uint8_t> strength) {
   draw(edges, edges.edges.size(), strength, [](const Edge& edge) {
-    return static_cast<std::uint8_t>(std::lround(1 + 254 * std::clamp(edge.strength, 0.0, 1.0)));
+    return static_cast<std::uint8_t>(
+        std::lround(1 + 254 * std::clamp(edge.display_strength, 0.0, 1.0)));
   });
 }
 

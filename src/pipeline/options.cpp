@@ -20,17 +20,17 @@ std::string out_of_range(const std::string& name, double value, Bounds bounds) {
          shortest(bounds.max);
 }
 
-NucOptions robust_nuc() {
-  NucOptions options;
+BadPixelOptions robust_nuc() {
+  BadPixelOptions options;
   options.stripes = true;
   return options;
 }
 
 DenoiseOptions robust_denoise() {
   DenoiseOptions options;
-  options.strength = 1.2;
-  options.shading = true;
-  options.ripple.range_sigmas = 0.2;
+  options.sigma_scale = 1.2;
+  options.detrend = true;
+  options.bilateral.range_sigmas = 0.2;
   return options;
 }
 
@@ -51,8 +51,8 @@ DetectorOptions preset_options(Preset preset) {
     options.denoise = {};
     options.denoise.method = DenoiseMethod::kGaussian;
     options.denoise.gaussian.sigma_px = 2;
-    options.denoise.ripple.range_sigmas = 0.3;
-    options.denoise.shading = true;
+    options.denoise.bilateral.range_sigmas = 0.3;
+    options.denoise.detrend = true;
     options.selection.min_score = 0.15;
   } else if (preset == Preset::kPaper) {
     options.edges = EdgeMethod::kCanny;

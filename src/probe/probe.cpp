@@ -95,7 +95,7 @@ struct RecordingProbe::Impl {
 
   Image<std::uint16_t> previous, working;
   std::vector<int> changes;
-  std::vector<DeadPixel> dead;
+  std::vector<BadPixel> dead;
   Image<std::uint32_t> dead_frames;  // in how many frames each pixel was flagged
   std::int64_t flags = 0;
   std::int64_t new_frames = 0;  // frames that repeat none
@@ -105,11 +105,11 @@ struct RecordingProbe::Impl {
   void add(ImageView<const std::uint16_t> frame);
   void add_counts(ImageView<const std::uint16_t> frame);
   void add_new_frame(ImageView<const std::uint16_t> frame, double sigma_counts);
-  void add_dead_pixels(ImageView<const std::uint16_t> frame, double sigma_counts);
+  void add_bad_pixels(ImageView<const std::uint16_t> frame, double sigma_counts);
   void end_freeze(ImageView<const std::uint16_t> frame, double sigma_counts);
   [[nodiscard]] RecordingReport finish() const;
   void finish_noise(RecordingReport& result) const;
-  void finish_dead_pixels(RecordingReport& result) const;
+  void finish_bad_pixels(RecordingReport& result) const;
 };
 
 Status RecordingProbe::Impl::check(ImageView<const std::uint16_t> frame, int bits) {
@@ -206,7 +206,7 @@ void RecordingProbe::Impl::add_new_frame(ImageView<const std::uint16_t> frame,
     report.scene_moved += new_frames > 1 ? 1 : 0;
   }
   stripes.add(frame);
-  add_dead_pixels(frame, sigma_counts);
+  add_bad_pixels(frame, sigma_counts);
   copy_pixels(frame, previous.view());
 }
 
@@ -221,11 +221,11 @@ void RecordingProbe::Impl::end_freeze(ImageView<const std::uint16_t> frame, doub
   freeze = 0;
 }
 
-void RecordingProbe::Impl::add_dead_pixels(ImageView<const std::uint16_t> frame,
-                                           double sigma_counts) {
+void RecordingProbe::Impl::add_bad_pixels(ImageView<const std::uint16_t> frame,
+                                          double sigma_counts) {
   copy_pixels(frame, working.view());
-  correct_dead_pixels(working, sigma_counts, options.nuc, dead);
-  for (const DeadPixel& pixel : dead) {
+  replace_bad_pixels(working, sigma_counts, options.nuc, dead);
+  for (const BadPixel& pixel : dead) {
     ++dead_frames(pixel.x, pixel.y);
   }
   flags += static_cast<std::int64_t>(dead.size());
@@ -249,7 +249,7 @@ RecordingReport RecordingProbe::Impl::finish() const {
   result.robust_range_counts = robust_range.value();
   result.histogram = totals.histogram();
   finish_noise(result);
-  finish_dead_pixels(result);
+  finish_bad_pixels(result);
   for (std::size_t i = 0; i < kGains.size(); ++i) {
     result.clipping.push_back({kGains[i], clipped[i].value()});
   }
@@ -284,7 +284,7 @@ void RecordingProbe::Impl::finish_noise(RecordingReport& result) const {
   result.row_profile_counts = stripes.rows();
 }
 
-void RecordingProbe::Impl::finish_dead_pixels(RecordingReport& result) const {
+void RecordingProbe::Impl::finish_bad_pixels(RecordingReport& result) const {
   std::int64_t lasting = 0;
   std::int64_t lasting_flags = 0;
   if (new_frames >= kLeastFramesForDeadPixels) {
@@ -297,9 +297,9 @@ void RecordingProbe::Impl::finish_dead_pixels(RecordingReport& result) const {
         }
       }
     }
-    result.dead_pixels = lasting;
+    result.bad_pixels = lasting;
   }
-  result.passing_dead_pixels =
+  result.passing_bad_pixels =
       static_cast<double>(flags - lasting_flags) / static_cast<double>(new_frames);
 }
 

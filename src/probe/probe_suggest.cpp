@@ -73,9 +73,9 @@ std::vector<SuggestedOption> suggest_options(const RecordingReport& report) {
   std::vector<SuggestedOption> options;
   const DetectorOptions defaults;
   const double pixels = static_cast<double>(report.width) * report.height;
-  if (report.passing_dead_pixels > kManyPassing * pixels) {
-    options.push_back({"nuc.dead_pixel_sigmas", shortest(2 * defaults.nuc.dead_pixel_sigmas),
-                       number(report.passing_dead_pixels, 0) +
+  if (report.passing_bad_pixels > kManyPassing * pixels) {
+    options.push_back({"nuc.threshold_sigmas", shortest(2 * defaults.nuc.threshold_sigmas),
+                       number(report.passing_bad_pixels, 0) +
                            " pixels a frame are taken for dead that soon recover"});
   }
   const double stripes = std::max(report.column_sigma_counts, report.row_sigma_counts);

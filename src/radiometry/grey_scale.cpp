@@ -42,7 +42,7 @@ int median_counts(ImageView<const std::uint16_t> frame) {
   return static_cast<int>(counts);
 }
 
-Status scale_to_8bit(ImageView<const std::uint16_t> frame, const ScaleOptions& options,
+Status scale_to_8bit(ImageView<const std::uint16_t> frame, const GreyScaleOptions& options,
                      ImageView<std::uint8_t> levels) {
   if (!same_size(frame, levels)) {
     return failure(ErrorCode::kInvalidArgument, "levels: " + size_text(levels) +

@@ -21,12 +21,12 @@ double gain_for(double sigma_counts) {
 
 }  // namespace
 
-Status check_options(const StableViewOptions& options) {
-  return check_ranges(options, "stable_view.");
+Status check_options(const StableGreyScaleOptions& options) {
+  return check_ranges(options, "stable_grey_scale.");
 }
 
-Result<ViewState> StableView::run(ImageView<const std::uint16_t> frame,
-                                  ImageView<std::uint8_t> levels) {
+Result<GreyScaleState> StableGreyScale::run(ImageView<const std::uint16_t> frame,
+                                            ImageView<std::uint8_t> levels) {
   if (Status status = check_options(options_); !status) {
     return tl::unexpected(status.error());
   }
@@ -34,27 +34,27 @@ Result<ViewState> StableView::run(ImageView<const std::uint16_t> frame,
     return failure(ErrorCode::kInvalidArgument,
                    "stable view: the frame is empty or the levels have another size");
   }
-  const ViewEvent event = place(frame);
+  const GreyScaleEvent event = place(frame);
   for (int y = 0; y < frame.height(); ++y) {
     detail::scale_row(frame.row(y), frame.width(), {anchor_counts_, base_level_, gain_},
                       levels.row(y));
   }
   const Clipped lost = clipped(frame, anchor_counts_, base_level_);
-  return ViewState{.gain = gain_,
-                   .offset = base_level_ - anchor_counts_ * gain_,
-                   .clipped_low_share = lost.low,
-                   .clipped_high_share = lost.high,
-                   .event = event};
+  return GreyScaleState{.gain = gain_,
+                        .offset = base_level_ - anchor_counts_ * gain_,
+                        .clipped_low_share = lost.low,
+                        .clipped_high_share = lost.high,
+                        .event = event};
 }
 
 // Where the view lies for this frame.
-ViewEvent StableView::place(ImageView<const std::uint16_t> frame) {
+GreyScaleEvent StableGreyScale::place(ImageView<const std::uint16_t> frame) {
   const int median = median_counts(frame);
   if (gain_ == 0) {
     gain_ = options_.gain > 0 ? options_.gain : gain_for(noise_.measure(frame).sigma_counts);
     anchor_counts_ = median;
     base_level_ = kMiddleLevel;
-    return ViewEvent::kStart;
+    return GreyScaleEvent::kStart;
   }
   const double lost = clipped(frame, anchor_counts_, base_level_).share();
   const bool jump_would_help =
@@ -62,27 +62,27 @@ ViewEvent StableView::place(ImageView<const std::uint16_t> frame) {
   if (!jump_would_help) {
     clipped_frames_ = 0;
     follow(median);
-    return ViewEvent::kNone;
+    return GreyScaleEvent::kNone;
   }
   if (++clipped_frames_ < options_.cut_frames) {
-    return ViewEvent::kNone;  // rests: it may be a flash
+    return GreyScaleEvent::kNone;  // rests: it may be a flash
   }
   anchor_counts_ = median;
   base_level_ = kMiddleLevel;
   clipped_frames_ = 0;
-  return ViewEvent::kSceneCut;
+  return GreyScaleEvent::kSceneCut;
 }
 
 // Moves the view by no more than it must to have the median within the dead band, and by no more
 // than it may.
-void StableView::follow(int median_counts) {
+void StableGreyScale::follow(int median_counts) {
   const double away = (median_counts - anchor_counts_) * gain_ + base_level_ - kMiddleLevel;
   const double beyond = std::max(std::abs(away) - options_.dead_band_levels, 0.0);
   base_level_ -= std::copysign(std::min(beyond, options_.slew_levels), away);
 }
 
-StableView::Clipped StableView::clipped(ImageView<const std::uint16_t> frame, int anchor_counts,
-                                        double base_level) const {
+StableGreyScale::Clipped StableGreyScale::clipped(ImageView<const std::uint16_t> frame,
+                                                  int anchor_counts, double base_level) const {
   const double darkest = anchor_counts - base_level / gain_;
   const double brightest = anchor_counts + (kLargestLevel - base_level) / gain_;
   std::size_t low = 0, high = 0;

@@ -286,7 +286,7 @@ double number_of_tests(const EdgeSet& edges) {
 
 // What speaks for an edge: its contrast on the frame as it came, and its score, as far as a
 // denoiser can be trusted. On the edges that are found in noise it is a normal variable.
-struct Evidence {
+struct FalseAlarmModel {
   double per_score;
   double most_score;
   double mean;
@@ -344,7 +344,7 @@ void measure_edges(ImageView<const std::uint16_t> frame, double sigma_counts,
                    ImageView<const std::int32_t> direction, const SignificanceOptions& options,
                    EdgeSet& edges) {
   constexpr double kPixelsPerCandidate = 55000;
-  constexpr Evidence kEvidence{1.6, 0.5, 1.3, 1.3};
+  constexpr FalseAlarmModel kFalseAlarmModel{1.6, 0.5, 1.3, 1.3};
   constexpr double kFarthestPx = 4.5;
   const double candidates = static_cast<double>(frame.size()) / kPixelsPerCandidate;
   Edgels& edgels = edges.edgels;
@@ -368,7 +368,7 @@ void measure_edges(ImageView<const std::uint16_t> frame, double sigma_counts,
     return z_of(contrast, sigma_counts, stripes * stripes);
   };
   measure_all(frame, sigma_counts, candidates, kFarthestPx, edges, orient, significance,
-              [&](const Edge& edge) { return log10_tail(kEvidence.of(edge)); });
+              [&](const Edge& edge) { return log10_tail(kFalseAlarmModel.of(edge)); });
 }
 
 void set_normals_from_shape(EdgeSet& edges) {

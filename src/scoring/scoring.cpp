@@ -77,12 +77,12 @@ double edge_score(const EdgeScoreTerms& terms) {
          (terms.points * terms.points * terms.connected_points * terms.loop_line_ratio);
 }
 
-double prominence_score(std::span<const Pixel> pixels, ImageView<const float> prominence) {
+double saliency(std::span<const Pixel> pixels, ImageView<const float> suppressed_response) {
   constexpr double kLeastMean = 0.02;  // so that the logarithm is finite
   double sum = 0;
   int count = 0;
   for (const Pixel pixel : pixels) {
-    const double value = prominence(pixel.x, pixel.y);
+    const double value = suppressed_response(pixel.x, pixel.y);
     sum += std::max(value, 0.0);
     count += value > 0 ? 1 : 0;
   }
@@ -98,24 +98,28 @@ Status Scorer::run(const LinkedContours& linked, const CornerSet& corners, int w
 }
 
 Status Scorer::run(const LinkedContours& linked, const CornerSet& corners,
-                   ImageView<const float> prominence, EdgeSet& edges) {
+                   ImageView<const float> suppressed_response, EdgeSet& edges) {
   // Scores between which strength rises: hardly there, and a wall at a hundred times the noise.
   constexpr double kFaintest = -1.5;
   constexpr double kStrongest = 4.5;
-  return score_contours(linked, corners, prominence.width(), prominence.height(), edges).map([&] {
-    score_by_prominence(linked.contours, prominence);
-    fill(linked, corners, edges);
-    for (Edge& edge : edges.edges) {
-      edge.score = -edge.score;
-      edge.strength = std::clamp((edge.score - kFaintest) / (kStrongest - kFaintest), 0.0, 1.0);
-    }
-  });
+  return score_contours(linked, corners, suppressed_response.width(), suppressed_response.height(),
+                        edges)
+      .map([&] {
+        score_by_saliency(linked.contours, suppressed_response);
+        fill(linked, corners, edges);
+        for (Edge& edge : edges.edges) {
+          edge.score = -edge.score;
+          edge.display_strength =
+              std::clamp((edge.score - kFaintest) / (kStrongest - kFaintest), 0.0, 1.0);
+        }
+      });
 }
 
-void Scorer::score_by_prominence(const ContourSet& contours, ImageView<const float> prominence) {
+void Scorer::score_by_saliency(const ContourSet& contours,
+                               ImageView<const float> suppressed_response) {
   for (Ranked& ranked : order_) {
     ranked.badness =
-        -prominence_score(contours.pixels(contours.contours[ranked.contour]), prominence);
+        -saliency(contours.pixels(contours.items[ranked.contour]), suppressed_response);
   }
 }
 
@@ -130,7 +134,7 @@ void Scorer::fill(const LinkedContours& linked, const CornerSet& corners, EdgeSe
 }
 
 void Scorer::prepare(const LinkedContours& linked, const CornerSet& corners, EdgeSet& edges) {
-  const std::size_t most_contours = linked.contours.contours.capacity();
+  const std::size_t most_contours = linked.contours.items.capacity();
   const std::size_t most_connections = 2 * linked.links.capacity();
   connections_.reserve(most_connections);
   order_.reserve(most_contours);
@@ -161,13 +165,13 @@ Status Scorer::score_contours(const LinkedContours& linked, const CornerSet& cor
   if (Status status = check_ranges(options_, "scoring."); !status) {
     return status;
   }
-  assert(corners.ranges.size() == linked.contours.contours.size());
+  assert(corners.ranges.size() == linked.contours.items.size());
   prepare(linked, corners, edges);
   collect_connections(linked);
   order_.clear();
   auto connection = connections_.begin();
-  for (std::uint32_t i = 0; i < linked.contours.contours.size(); ++i) {
-    const Contour& contour = linked.contours.contours[i];
+  for (std::uint32_t i = 0; i < linked.contours.items.size(); ++i) {
+    const Contour& contour = linked.contours.items[i];
     const FittedParts parts =
         fit_parts(linked.contours.pixels(contour), slice(corners.indices, corners.ranges[i]));
     EdgeScoreTerms terms;
@@ -178,7 +182,7 @@ Status Scorer::score_contours(const LinkedContours& linked, const CornerSet& cor
     terms.corners = static_cast<double>(parts.corners);
     terms.connected_points = contour.points.count;
     for (; connection != connections_.end() && connection->from == i; ++connection) {
-      terms.connected_points += linked.contours.contours[connection->to].points.count;
+      terms.connected_points += linked.contours.items[connection->to].points.count;
     }
     terms.loop_line_ratio = contour.closed ? options_.loop_line_ratio : 1;
     const double es = edge_score(terms);
@@ -200,13 +204,13 @@ void Scorer::rank_contours() {
 void Scorer::append_edge(const LinkedContours& linked, const CornerSet& corners, std::size_t rank,
                          EdgeSet& edges) const {
   const Ranked& ranked = order_[rank];
-  const Contour& contour = linked.contours.contours[ranked.contour];
+  const Contour& contour = linked.contours.items[ranked.contour];
   const auto pixels = linked.contours.pixels(contour);
   const auto indices = slice(corners.indices, corners.ranges[ranked.contour]);
   Edge edge;
-  edge.id = edge.rank = static_cast<std::int32_t>(rank);
+  edge.index = edge.rank = static_cast<std::int32_t>(rank);
   edge.score = ranked.badness;
-  edge.strength =
+  edge.display_strength =
       1 - static_cast<double>(rank) / std::max(static_cast<double>(order_.size()) - 1, 1.0);
   edge.es = ranked.es;
   edge.length_px = arc_length(pixels, contour.closed);

@@ -16,8 +16,8 @@ Status EdgeSelector::run(EdgeSet& edges) {
   }
   bool in_order = true;
   for (Edge& edge : edges.edges) {
-    edge.verdict = judge(edge);
-    in_order = in_order && edge.verdict == EdgeVerdict::kKept;
+    edge.status = judge(edge);
+    in_order = in_order && edge.status == EdgeStatus::kKept;
   }
   rank_of_.reserve(edges.edges.capacity());
   if (!in_order) {
@@ -27,20 +27,20 @@ Status EdgeSelector::run(EdgeSet& edges) {
   return {};
 }
 
-EdgeVerdict EdgeSelector::judge(const Edge& edge) const {
+EdgeStatus EdgeSelector::judge(const Edge& edge) const {
   if (edge.score < options_.min_score) {
-    return EdgeVerdict::kWeak;
+    return EdgeStatus::kWeak;
   }
   if (options_.max_false_alarms > 0 && edge.log10_nfa > std::log10(options_.max_false_alarms)) {
-    return EdgeVerdict::kInsignificant;
+    return EdgeStatus::kInsignificant;
   }
-  return EdgeVerdict::kKept;
+  return EdgeStatus::kKept;
 }
 
 void EdgeSelector::reorder(EdgeSet& edges) {
   std::sort(edges.edges.begin(), edges.edges.end(), [](const Edge& a, const Edge& b) {
-    const bool a_fails = a.verdict != EdgeVerdict::kKept;
-    const bool b_fails = b.verdict != EdgeVerdict::kKept;
+    const bool a_fails = a.status != EdgeStatus::kKept;
+    const bool b_fails = b.status != EdgeStatus::kKept;
     return std::tie(a_fails, a.rank) < std::tie(b_fails, b.rank);
   });
   rank_of_.resize(edges.edges.size());
@@ -50,9 +50,9 @@ void EdgeSelector::reorder(EdgeSet& edges) {
   double strength = 1;  // of those before
   for (std::size_t i = 0; i < edges.edges.size(); ++i) {
     Edge& edge = edges.edges[i];
-    edge.strength = strength = std::min(edge.strength, strength);
-    edge.id = edge.rank = static_cast<std::int32_t>(i);
-    std::fill_n(edges.edgels.edge.begin() + edge.edgels.first, edge.edgels.count, edge.id);
+    edge.display_strength = strength = std::min(edge.display_strength, strength);
+    edge.index = edge.rank = static_cast<std::int32_t>(i);
+    std::fill_n(edges.edgels.edge.begin() + edge.edgels.first, edge.edgels.count, edge.index);
     const auto connections = slice(edges.connections, edge.connections);
     std::transform(connections.begin(), connections.end(), connections.begin(),
                    [&](std::int32_t id) { return rank_of_[static_cast<std::size_t>(id)]; });
@@ -70,7 +70,7 @@ void EdgeSelector::keep_best(EdgeSet& edges) const {
   std::size_t edgels = 0;
   bool within = true;
   for (Edge& edge : edges.edges) {
-    if (edge.verdict != EdgeVerdict::kKept) {
+    if (edge.status != EdgeStatus::kKept) {
       break;
     }
     edgels += edge.edgels.count;
@@ -79,7 +79,7 @@ void EdgeSelector::keep_best(EdgeSet& edges) const {
       edge.kept = true;
       ++edges.kept;
     } else {
-      edge.verdict = EdgeVerdict::kBeyondBudget;
+      edge.status = EdgeStatus::kBeyondBudget;
     }
   }
 }
@@ -92,7 +92,7 @@ void EdgeSelector::keep_junctions(int width, int height, EdgeSet& edges) {
   for (const Edge& edge : edges.kept_edges()) {
     for (std::size_t i = edge.edgels.first; i < edge.edgels.first + edge.edgels.count; ++i) {
       owner_(static_cast<int>(std::floor(edges.edgels.x[i] + 0.5F)),
-             static_cast<int>(std::floor(edges.edgels.y[i] + 0.5F))) = edge.id;
+             static_cast<int>(std::floor(edges.edgels.y[i] + 0.5F))) = edge.index;
     }
   }
   std::erase_if(edges.junctions, [&](const Junction& junction) {

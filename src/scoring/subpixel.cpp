@@ -61,11 +61,11 @@ class LogWindow {
 constexpr double kHalfPixel = 0.499;
 
 // To the ridge, within the pixel.
-void move_to_ridge(ImageView<const float> strength, double sigma_times_strength, LogWindow& window,
+void move_to_ridge(ImageView<const float> response, double sigma_times_strength, LogWindow& window,
                    Edgels& edgels, std::size_t i) {
   const int x = static_cast<int>(edgels.x[i] + 0.5F);  // not negative
   const int y = static_cast<int>(edgels.y[i] + 0.5F);
-  if (x < 1 || y < 1 || x >= strength.width() - 1 || y >= strength.height() - 1) {
+  if (x < 1 || y < 1 || x >= response.width() - 1 || y >= response.height() - 1) {
     return;
   }
   window.move_to(x, y);
@@ -82,19 +82,19 @@ void move_to_ridge(ImageView<const float> strength, double sigma_times_strength,
   }
   constexpr double kLeastSigma = 0.01;
   edgels.position_sigma_px[i] = static_cast<float>(std::max(
-      sigma_times_strength / std::max(static_cast<double>(strength(x, y)), 1e-6), kLeastSigma));
+      sigma_times_strength / std::max(static_cast<double>(response(x, y)), 1e-6), kLeastSigma));
 }
 
 constexpr std::size_t kReach = 8;  // edgels to either side that tell the curvature
 
 // The edgels of one edge as they were before the first was moved.
-class Unmoved {
+class PreviousPositions {
  public:
   struct Point {
     double x, y;
   };
 
-  Unmoved(const Edgels& edgels, const Edge& edge)
+  PreviousPositions(const Edgels& edgels, const Edge& edge)
       : edgels_(edgels), first_(edge.edgels.first), count_(edge.edgels.count) {
     for (std::size_t k = 0; k < kReach; ++k) {
       begin_[k] = now(k);
@@ -121,20 +121,20 @@ class Unmoved {
 };
 
 // Outwards, by half the variance of the kernel over the radius.
-void make_up_for_curvature(double along_px, const Edge& edge, Edgels& edgels) {
+void compensate_curvature_bias(double along_px, const Edge& edge, Edgels& edgels) {
   // Of what a kernel makes that is cut off at 2.25 standard deviations, measured on circles.
   constexpr double kHalf = 0.47;
   const std::size_t count = edge.edgels.count;
   if (count <= 2 * kReach) {
     return;
   }
-  Unmoved unmoved(edgels, edge);
+  PreviousPositions previous_positions(edgels, edge);
   for (std::size_t i = 0; i < count; ++i) {
     const bool has_both = edge.closed || (i >= kReach && i + kReach < count);
-    const Unmoved::Point here = unmoved.now(i);
-    const Unmoved::Point behind = has_both ? unmoved.behind(i) : here;
-    const Unmoved::Point ahead = has_both ? unmoved.ahead(i) : here;
-    unmoved.remember(i);
+    const PreviousPositions::Point here = previous_positions.now(i);
+    const PreviousPositions::Point behind = has_both ? previous_positions.behind(i) : here;
+    const PreviousPositions::Point ahead = has_both ? previous_positions.ahead(i) : here;
+    previous_positions.remember(i);
     const double chord_x = ahead.x - behind.x;
     const double chord_y = ahead.y - behind.y;
     const double squared_half = (chord_x * chord_x + chord_y * chord_y) / 4;
@@ -160,18 +160,18 @@ void make_up_for_curvature(double along_px, const Edge& edge, Edgels& edgels) {
 
 }  // namespace
 
-void refine_positions(ImageView<const float> strength, KernelSize kernel, double noise,
+void refine_positions(ImageView<const float> response, KernelSize kernel, double noise,
                       EdgeSet& edges) {
   constexpr double kSigmaTimesStrength = 1.25;  // of kernels of this area
   constexpr double kArea = 1.2 * 2.5;
   const double sigma_times_strength =
       kSigmaTimesStrength * noise * std::sqrt(kernel.across_px * kernel.along_px / kArea);
-  LogWindow window(strength);
+  LogWindow window(response);
   for (std::size_t i = 0; i < edges.edgels.size(); ++i) {
-    move_to_ridge(strength, sigma_times_strength, window, edges.edgels, i);
+    move_to_ridge(response, sigma_times_strength, window, edges.edgels, i);
   }
   for (const Edge& edge : edges.edges) {
-    make_up_for_curvature(kernel.along_px, edge, edges.edgels);
+    compensate_curvature_bias(kernel.along_px, edge, edges.edgels);
   }
 }
 

@@ -17,7 +17,7 @@ struct Square {
       const Pixel points[4] = {{along, 0}, {10, along}, {10 - along, 10}, {0, 10 - along}};
       contours.points.push_back(points[side]);
     }
-    contours.contours.push_back({{0, 40}, closed});
+    contours.items.push_back({{0, 40}, closed});
   }
   std::vector<std::uint32_t> merged(std::vector<std::uint32_t> indices, double distance_px) {
     corners.indices = std::move(indices);

@@ -253,7 +253,7 @@ TEST(CornerFinder, ClosedCurvesHaveNoEnds) {
   CornerOptions without_ends;
   without_ends.end_points = false;
   EXPECT_EQ(corners_of(contours)[1], corners_of(contours, without_ends)[1]);
-  contours.contours[1].closed = false;
+  contours.items[1].closed = false;
   EXPECT_NE(corners_of(contours)[1], corners_of(contours, without_ends)[1]);
 }
 

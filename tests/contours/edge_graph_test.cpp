@@ -16,9 +16,9 @@ namespace thermedge {
 namespace {
 
 struct Drawing {
-  Drawing(int width, int height) : edges(width, height), strength(width, height) {
+  Drawing(int width, int height) : edges(width, height), response(width, height) {
     fill_pixels(edges.view(), std::uint8_t{0});
-    fill_pixels(strength.view(), 1.0F);
+    fill_pixels(response.view(), 1.0F);
   }
   void draw(const std::vector<Pixel>& pixels) {
     for (const Pixel pixel : pixels) {
@@ -28,15 +28,15 @@ struct Drawing {
   [[nodiscard]] LinkedContours curves(const GraphOptions& options = {}) const {
     LinkedContours curves;
     GraphTracer tracer(options);
-    EXPECT_TRUE(tracer.run(edges, strength, curves));
+    EXPECT_TRUE(tracer.run(edges, response, curves));
     return curves;
   }
   Image<std::uint8_t> edges;
-  Image<float> strength;
+  Image<float> response;
 };
 
 std::vector<Pixel> points_of(const LinkedContours& curves, std::size_t i) {
-  const auto pixels = curves.contours.pixels(curves.contours.contours[i]);
+  const auto pixels = curves.contours.pixels(curves.contours.items[i]);
   return {pixels.begin(), pixels.end()};
 }
 
@@ -55,8 +55,8 @@ TEST(GraphTracer, FollowsALine) {
   const auto line = test::polyline({{5, 5}, {15, 15}, {30, 15}});
   drawing.draw(line);
   const LinkedContours curves = drawing.curves();
-  ASSERT_EQ(curves.contours.contours.size(), 1U);
-  EXPECT_FALSE(curves.contours.contours[0].closed);
+  ASSERT_EQ(curves.contours.items.size(), 1U);
+  EXPECT_FALSE(curves.contours.items[0].closed);
   EXPECT_EQ(canonical(points_of(curves, 0)), canonical(line));
   EXPECT_TRUE(curves.contours.junctions.empty());
 }
@@ -67,17 +67,17 @@ TEST(GraphTracer, DropsShortCurves) {
   drawing.draw(test::straight({5, 20}, {15, 20}));  // 11
   GraphOptions options;
   options.min_length_px = 11;
-  EXPECT_EQ(drawing.curves(options).contours.contours.size(), 1U);
+  EXPECT_EQ(drawing.curves(options).contours.items.size(), 1U);
 }
 
 TEST(GraphTracer, ClosesARing) {
   Drawing drawing(60, 50);
   drawing.draw(test::polyline({{10, 10}, {40, 10}, {40, 40}, {10, 40}, {10, 10}}));
   const LinkedContours curves = drawing.curves();
-  ASSERT_EQ(curves.contours.contours.size(), 1U);
-  EXPECT_TRUE(curves.contours.contours[0].closed);
+  ASSERT_EQ(curves.contours.items.size(), 1U);
+  EXPECT_TRUE(curves.contours.items[0].closed);
   // Corners of a square are cut: of three pixels around a corner the outer one goes.
-  EXPECT_GE(curves.contours.contours[0].points.count, 116U);
+  EXPECT_GE(curves.contours.items[0].points.count, 116U);
 }
 
 TEST(GraphTracer, LinesThatCrossGoStraightOn) {
@@ -85,9 +85,9 @@ TEST(GraphTracer, LinesThatCrossGoStraightOn) {
   drawing.draw(test::straight({5, 25}, {55, 25}));
   drawing.draw(test::straight({30, 5}, {30, 45}));
   const LinkedContours curves = drawing.curves();
-  ASSERT_EQ(curves.contours.contours.size(), 2U);
+  ASSERT_EQ(curves.contours.items.size(), 2U);
   std::multiset<std::uint32_t> lengths;
-  for (const Contour& contour : curves.contours.contours) {
+  for (const Contour& contour : curves.contours.items) {
     lengths.insert(contour.points.count);
   }
   EXPECT_NEAR(*lengths.begin(), 41, 1);
@@ -100,11 +100,11 @@ TEST(GraphTracer, ABranchEndsWhereItMeetsALine) {
   drawing.draw(test::straight({5, 25}, {55, 25}));
   drawing.draw(test::straight({30, 26}, {30, 45}));
   const LinkedContours curves = drawing.curves();
-  ASSERT_EQ(curves.contours.contours.size(), 2U);
+  ASSERT_EQ(curves.contours.items.size(), 2U);
   ASSERT_EQ(curves.links.size(), 1U);
   const Link& link = curves.links[0];
   EXPECT_EQ(link.type, LinkType::kEndToMiddle);
-  EXPECT_EQ(curves.contours.contours[link.b].points.count, 51U);
+  EXPECT_EQ(curves.contours.items[link.b].points.count, 51U);
   EXPECT_LE(squared_distance(link.to, {30, 25}), 2);
 }
 
@@ -115,9 +115,9 @@ TEST(GraphTracer, ASharpTurnAtAJunctionIsAnEnd) {
   drawing.draw(test::straight({30, 30}, {50, 50}));  // turns of 45, 45 and 90 degrees
   GraphOptions options;
   options.max_turn_deg = 40;
-  EXPECT_EQ(drawing.curves(options).contours.contours.size(), 3U);
+  EXPECT_EQ(drawing.curves(options).contours.items.size(), 3U);
   options.max_turn_deg = 50;
-  EXPECT_EQ(drawing.curves(options).contours.contours.size(), 2U);
+  EXPECT_EQ(drawing.curves(options).contours.items.size(), 2U);
 }
 
 TEST(GraphTracer, ThinsAndKeepsTheStrongerPixels) {
@@ -125,11 +125,11 @@ TEST(GraphTracer, ThinsAndKeepsTheStrongerPixels) {
   for (int x = 5; x <= 30; ++x) {
     for (const int y : {10, 11}) {
       drawing.edges(x, y) = 255;
-      drawing.strength(x, y) = y == 11 ? 2.0F : 1.0F;
+      drawing.response(x, y) = y == 11 ? 2.0F : 1.0F;
     }
   }
   const LinkedContours curves = drawing.curves();
-  ASSERT_EQ(curves.contours.contours.size(), 1U);
+  ASSERT_EQ(curves.contours.items.size(), 1U);
   const auto points = points_of(curves, 0);
   EXPECT_GE(points.size(), 24U);
   EXPECT_TRUE(std::all_of(points.begin(), points.end(), [](Pixel p) { return p.y == 11; }));
@@ -147,7 +147,7 @@ TEST(GraphTracer, CurvesAreConnectedAndDoNotDependOnTheOrder) {
       for (int x = 1; x < 69; ++x) {
         const bool edge = random() % 100 < 5 + seed;
         drawing.edges(x, y) = transposed.edges(y, x) = edge ? 255 : 0;
-        drawing.strength(x, y) = transposed.strength(y, x) = uniform(random);
+        drawing.response(x, y) = transposed.response(y, x) = uniform(random);
       }
     }
     GraphOptions options;
@@ -155,7 +155,7 @@ TEST(GraphTracer, CurvesAreConnectedAndDoNotDependOnTheOrder) {
     const LinkedContours curves = drawing.curves(options);
     const LinkedContours other = transposed.curves(options);
     std::set<std::pair<int, int>> covered;
-    for (std::size_t i = 0; i < curves.contours.contours.size(); ++i) {
+    for (std::size_t i = 0; i < curves.contours.items.size(); ++i) {
       const auto points = points_of(curves, i);
       for (std::size_t k = 0; k < points.size(); ++k) {
         ASSERT_EQ(drawing.edges(points[k].x, points[k].y), 255);
@@ -166,7 +166,7 @@ TEST(GraphTracer, CurvesAreConnectedAndDoNotDependOnTheOrder) {
       }
     }
     std::set<std::pair<int, int>> covered_by_other;
-    for (std::size_t i = 0; i < other.contours.contours.size(); ++i) {
+    for (std::size_t i = 0; i < other.contours.items.size(); ++i) {
       for (const Pixel point : points_of(other, i)) {
         covered_by_other.emplace(point.y, point.x);
       }
@@ -184,7 +184,7 @@ TEST(GraphTracer, TakesAnySize) {
     fill_pixels(drawing.edges.view(), std::uint8_t{255});
     GraphOptions options;
     options.min_length_px = 1;
-    EXPECT_GE(drawing.curves(options).contours.contours.size(), 1U) << width << " x " << height;
+    EXPECT_GE(drawing.curves(options).contours.items.size(), 1U) << width << " x " << height;
   }
 }
 
@@ -192,8 +192,8 @@ TEST(GraphTracer, RefusesSizesThatDifferAndOptionsOutOfRange) {
   LinkedContours curves;
   Image<std::uint8_t> edges(10, 10);
   fill_pixels(edges.view(), std::uint8_t{0});
-  Image<float> strength(9, 10);
-  EXPECT_FALSE(GraphTracer({}).run(edges, strength, curves));
+  Image<float> response(9, 10);
+  EXPECT_FALSE(GraphTracer({}).run(edges, response, curves));
   GraphOptions options;
   options.max_turn_deg = 200;
   Image<float> fitting(10, 10);

@@ -52,9 +52,9 @@ TEST(Linker, EndToEndInsertsTheBridge) {
   const auto left = straight({10, 10}, {30, 10});
   const auto right = straight({32, 11}, {50, 11});
   const LinkedContours linked = link(contour_set({left, right}));
-  ASSERT_EQ(linked.contours.contours.size(), 1U);
+  ASSERT_EQ(linked.contours.items.size(), 1U);
   EXPECT_EQ(pixels_of(linked.contours, 0), joined({left, {{31, 11}}, right}));
-  EXPECT_FALSE(linked.contours.contours[0].closed);
+  EXPECT_FALSE(linked.contours.items[0].closed);
   ASSERT_EQ(linked.links.size(), 1U);
   expect_link(linked.links[0], LinkType::kEndToEnd, 0, 0, {30, 10}, {32, 11});
   EXPECT_TRUE(linked.contours.junctions.empty());
@@ -98,7 +98,7 @@ TEST(Linker, BridgesAreLines) {
       const auto left = straight({20, 30}, {40, 30});
       const auto right = straight({40 + dx, 30 + dy}, {60 + dx, 30 + dy});
       const LinkedContours linked = link(contour_set({left, right}), 14);
-      ASSERT_EQ(linked.contours.contours.size(), 1U);
+      ASSERT_EQ(linked.contours.items.size(), 1U);
       const auto pixels = pixels_of(linked.contours, 0);
       const int bridge = std::max(dx, std::abs(dy)) - 1;
       ASSERT_EQ(pixels.size(), left.size() + right.size() + static_cast<std::size_t>(bridge));
@@ -117,8 +117,8 @@ TEST(Linker, BridgesAreLines) {
 TEST(Linker, TheEndsOfOneCurveCloseIt) {
   const auto shape = polyline({{10, 10}, {30, 10}, {30, 30}, {10, 30}, {10, 12}});
   const LinkedContours linked = link(contour_set({shape}));
-  ASSERT_EQ(linked.contours.contours.size(), 1U);
-  EXPECT_TRUE(linked.contours.contours[0].closed);
+  ASSERT_EQ(linked.contours.items.size(), 1U);
+  EXPECT_TRUE(linked.contours.items[0].closed);
   EXPECT_EQ(pixels_of(linked.contours, 0), joined({shape, {{10, 11}}}));
   ASSERT_EQ(linked.links.size(), 1U);
   expect_link(linked.links[0], LinkType::kLoop, 0, 0, {10, 10}, {10, 12});
@@ -130,8 +130,8 @@ TEST(Linker, AChainOfCurvesThatComesBackIsALoop) {
   const auto bottom = straight({30, 32}, {50, 32});
   const auto left = straight({28, 30}, {28, 13});
   const LinkedContours linked = link(contour_set({top, right, bottom, left}), 4);
-  ASSERT_EQ(linked.contours.contours.size(), 1U);
-  EXPECT_TRUE(linked.contours.contours[0].closed);
+  ASSERT_EQ(linked.contours.items.size(), 1U);
+  EXPECT_TRUE(linked.contours.items[0].closed);
   ASSERT_EQ(linked.links.size(), 4U);
   // sqrt(8) three times, by index of the first end; then sqrt(13) between `top` and `left`.
   expect_link(linked.links[0], LinkType::kEndToEnd, 0, 0, {50, 10}, {52, 12});
@@ -154,7 +154,7 @@ TEST(Linker, AChainBeginsBeforeItsEarliestCurve) {
   const auto before = straight({38, 10}, {20, 10});
   const auto behind = straight({52, 10}, {70, 10});
   const LinkedContours linked = link(contour_set({first, before, behind}));
-  ASSERT_EQ(linked.contours.contours.size(), 1U);
+  ASSERT_EQ(linked.contours.items.size(), 1U);
   EXPECT_EQ(pixels_of(linked.contours, 0),
             joined({reversed(before), {{39, 10}}, first, {{51, 10}}, behind}));
 }
@@ -164,7 +164,7 @@ TEST(Linker, TheNearestPairComesFirst) {
   const auto farther = straight({30, 13}, {30, 40});
   const auto nearer = straight({32, 10}, {50, 10});
   const LinkedContours linked = link(contour_set({left, farther, nearer}), 3.5);
-  ASSERT_EQ(linked.contours.contours.size(), 2U);
+  ASSERT_EQ(linked.contours.items.size(), 2U);
   ASSERT_EQ(linked.links.size(), 2U);
   expect_link(linked.links[0], LinkType::kEndToEnd, 0, 0, {30, 10}, {32, 10});
   // The end that came too late touches the joined curve.
@@ -206,9 +206,9 @@ TEST(Linker, ClosedCurvesTakeNoPartWithTheirEndsButAreTouched) {
   add_contour(contours, polyline({{20, 20}, {40, 20}, {40, 40}, {20, 40}, {20, 21}}), true);
   add_contour(contours, straight({5, 20}, {18, 20}));
   const LinkedContours linked = link(contours);
-  ASSERT_EQ(linked.contours.contours.size(), 2U);
-  EXPECT_TRUE(linked.contours.contours[0].closed);
-  EXPECT_FALSE(linked.contours.contours[1].closed);
+  ASSERT_EQ(linked.contours.items.size(), 2U);
+  EXPECT_TRUE(linked.contours.items[0].closed);
+  EXPECT_FALSE(linked.contours.items[1].closed);
   ASSERT_EQ(linked.links.size(), 1U);
   expect_link(linked.links[0], LinkType::kEndToMiddle, 1, 0, {18, 20}, {20, 20});
 }
@@ -242,10 +242,10 @@ TEST(Linker, ZeroGapPassesEverythingThrough) {
   const LinkedContours linked = link(contours, 0);
   EXPECT_TRUE(linked.links.empty());
   EXPECT_EQ(linked.contours.points, contours.points);
-  ASSERT_EQ(linked.contours.contours.size(), contours.contours.size());
-  for (std::size_t i = 0; i < contours.contours.size(); ++i) {
-    EXPECT_EQ(linked.contours.contours[i].points, contours.contours[i].points);
-    EXPECT_EQ(linked.contours.contours[i].closed, contours.contours[i].closed);
+  ASSERT_EQ(linked.contours.items.size(), contours.items.size());
+  for (std::size_t i = 0; i < contours.items.size(); ++i) {
+    EXPECT_EQ(linked.contours.items[i].points, contours.items[i].points);
+    EXPECT_EQ(linked.contours.items[i].closed, contours.items[i].closed);
   }
   ASSERT_EQ(linked.contours.junctions.size(), 1U);
   EXPECT_EQ(linked.contours.junctions[0].at, (Pixel{30, 10}));
@@ -259,7 +259,7 @@ TEST(Linker, EndsAtTheBordersOfTheFrame) {
 // The text of the paper, in the plainest words: a list of all pairs, sorted.
 std::vector<std::pair<Pixel, Pixel>> slow_joins(const ContourSet& contours, double gap_px) {
   std::vector<Pixel> ends;
-  for (std::size_t i = 0; i < contours.contours.size(); ++i) {
+  for (std::size_t i = 0; i < contours.items.size(); ++i) {
     ends.push_back(pixels_of(contours, i).front());
     ends.push_back(pixels_of(contours, i).back());
   }
@@ -325,15 +325,13 @@ TEST(Linker, CountsAddUp) {
     std::map<LinkType, std::size_t> links;
     for (const Link& made : linked.links) {
       ++links[made.type];
-      ASSERT_LT(made.a, linked.contours.contours.size());
-      ASSERT_LT(made.b, linked.contours.contours.size());
+      ASSERT_LT(made.a, linked.contours.items.size());
+      ASSERT_LT(made.b, linked.contours.items.size());
       EXPECT_EQ(made.a != made.b, made.type == LinkType::kEndToMiddle);
     }
-    EXPECT_EQ(linked.contours.contours.size(),
-              contours.contours.size() - links[LinkType::kEndToEnd]);
-    const auto closed =
-        std::count_if(linked.contours.contours.begin(), linked.contours.contours.end(),
-                      [](const Contour& contour) { return contour.closed; });
+    EXPECT_EQ(linked.contours.items.size(), contours.items.size() - links[LinkType::kEndToEnd]);
+    const auto closed = std::count_if(linked.contours.items.begin(), linked.contours.items.end(),
+                                      [](const Contour& contour) { return contour.closed; });
     EXPECT_EQ(static_cast<std::size_t>(closed), links[LinkType::kLoop]);
     EXPECT_EQ(linked.contours.junctions.size(), links[LinkType::kEndToMiddle]);
     EXPECT_GE(linked.contours.points.size(), contours.points.size());
@@ -349,7 +347,7 @@ TEST(Linker, RemembersNothing) {
   ASSERT_TRUE(linker.run(random_curves(1), kWidth, kHeight, linked));
   EXPECT_EQ(linked.contours.points, expected);
   ASSERT_TRUE(linker.run({}, kWidth, kHeight, linked));
-  EXPECT_TRUE(linked.contours.contours.empty());
+  EXPECT_TRUE(linked.contours.items.empty());
   EXPECT_TRUE(linked.links.empty());
 }
 

@@ -105,7 +105,7 @@ void expect_like_reference(ImageView<const std::uint8_t> map, int gap_px) {
   options.gap_px = gap_px;
   const ContourSet contours = trace(map, options);
   const auto expected = SlowTracer(map, gap_px).curves();
-  ASSERT_EQ(contours.contours.size(), expected.size());
+  ASSERT_EQ(contours.items.size(), expected.size());
   for (std::size_t i = 0; i < expected.size(); ++i) {
     ASSERT_EQ(pixels_of(contours, i), expected[i]) << "curve " << i;
   }
@@ -131,16 +131,16 @@ TEST(ContourTracer, IsTheReferenceWithTheLargestGap) {
 TEST(ContourTracer, StraightLine) {
   const auto line = straight({3, 5}, {42, 5});
   const ContourSet contours = trace(map_of(line, 50, 20), keep_all());
-  ASSERT_EQ(contours.contours.size(), 1U);
+  ASSERT_EQ(contours.items.size(), 1U);
   EXPECT_EQ(pixels_of(contours, 0), line);
-  EXPECT_FALSE(contours.contours[0].closed);
+  EXPECT_FALSE(contours.items[0].closed);
   EXPECT_TRUE(contours.junctions.empty());
 }
 
 TEST(ContourTracer, AnLBeginsAtItsLeftEnd) {
   const auto shape = polyline({{4, 2}, {4, 30}, {25, 30}});
   const ContourSet contours = trace(map_of(shape, 40, 40), keep_all());
-  ASSERT_EQ(contours.contours.size(), 1U);
+  ASSERT_EQ(contours.items.size(), 1U);
   EXPECT_EQ(pixels_of(contours, 0), shape);
 }
 
@@ -151,7 +151,7 @@ TEST(ContourTracer, ASeedInTheMiddleIsWalkedBothWays) {
                               ".#.",  //
                               "..#"});
   const ContourSet contours = trace(map, keep_all());
-  ASSERT_EQ(contours.contours.size(), 1U);
+  ASSERT_EQ(contours.items.size(), 1U);
   // Both neighbours of the seed are equally near and in one column: the smaller row is first.
   EXPECT_EQ(pixels_of(contours, 0), (std::vector<Pixel>{{2, 4}, {1, 3}, {0, 2}, {1, 1}, {2, 0}}));
 }
@@ -160,7 +160,7 @@ TEST(ContourTracer, ADirectNeighbourIsNearerThanADiagonalOne) {
   const auto map = drawn_map({"#.#",  //
                               ".##"});
   const ContourSet contours = trace(map, keep_all());
-  ASSERT_EQ(contours.contours.size(), 1U);
+  ASSERT_EQ(contours.items.size(), 1U);
   EXPECT_EQ(pixels_of(contours, 0), (std::vector<Pixel>{{0, 0}, {1, 1}, {2, 1}, {2, 0}}));
 }
 
@@ -172,19 +172,19 @@ TEST(ContourTracer, ACircleIsClosed) {
         static_cast<int>(std::lround(32 + 20 * std::sin(angle)))) = 1;
   }
   const ContourSet contours = trace(map, keep_all());
-  ASSERT_GE(contours.contours.size(), 1U);
-  EXPECT_TRUE(contours.contours[0].closed);
-  EXPECT_GT(contours.contours[0].points.count, 100U);
+  ASSERT_GE(contours.items.size(), 1U);
+  EXPECT_TRUE(contours.items[0].closed);
+  EXPECT_GT(contours.items[0].points.count, 100U);
 }
 
 TEST(ContourTracer, GapOfTwoJumpsOnePixel) {
   auto line = straight({3, 5}, {42, 5});
   line.erase(line.begin() + 20);
   ContourOptions options = keep_all();
-  EXPECT_EQ(trace(map_of(line, 50, 20), options).contours.size(), 2U);
+  EXPECT_EQ(trace(map_of(line, 50, 20), options).items.size(), 2U);
   options.gap_px = 2;
   const ContourSet contours = trace(map_of(line, 50, 20), options);
-  ASSERT_EQ(contours.contours.size(), 1U);
+  ASSERT_EQ(contours.items.size(), 1U);
   EXPECT_EQ(pixels_of(contours, 0), line);
 }
 
@@ -194,8 +194,8 @@ bool closes(int dx, int dy, double closed_gap_px) {
   options.closed_gap_px = closed_gap_px;
   const auto shape = polyline({{10, 10}, {10, 40}, {10 + dx, 40}, {10 + dx, 10 + dy}});
   const ContourSet contours = trace(map_of(shape, 60, 60), options);
-  EXPECT_EQ(contours.contours.size(), 1U);
-  return contours.contours[0].closed;
+  EXPECT_EQ(contours.items.size(), 1U);
+  return contours.items[0].closed;
 }
 
 TEST(ContourTracer, IsClosedUpToTheSquaredDistanceOfThePublicCode) {
@@ -223,19 +223,19 @@ TEST(ContourTracer, ShortCurvesAreDropped) {
   }
   ContourOptions options;
   options.min_component_px = 0;
-  EXPECT_EQ(trace(map, options).contours.size(), 1U);
+  EXPECT_EQ(trace(map, options).items.size(), 1U);
   options.min_length_px = 4;
-  EXPECT_EQ(trace(map, options).contours.size(), 2U);
+  EXPECT_EQ(trace(map, options).items.size(), 2U);
   options.min_length_px = 6;
-  EXPECT_EQ(trace(map, options).contours.size(), 0U);
+  EXPECT_EQ(trace(map, options).items.size(), 0U);
 }
 
 TEST(ContourTracer, TheShortestCurveOfAFrameOfOddSize) {
   ContourOptions options;
   options.min_component_px = 0;
-  const auto line = straight({2, 2}, {6, 2});                           // 5 pixels
-  EXPECT_EQ(trace(map_of(line, 60, 64), options).contours.size(), 1U);  // > 124 / 25 = 4.96
-  EXPECT_EQ(trace(map_of(line, 60, 65), options).contours.size(), 0U);  // = 125 / 25
+  const auto line = straight({2, 2}, {6, 2});                        // 5 pixels
+  EXPECT_EQ(trace(map_of(line, 60, 64), options).items.size(), 1U);  // > 124 / 25 = 4.96
+  EXPECT_EQ(trace(map_of(line, 60, 65), options).items.size(), 0U);  // = 125 / 25
 }
 
 TEST(ContourTracer, SmallComponentsAreRemovedWhole) {
@@ -243,9 +243,9 @@ TEST(ContourTracer, SmallComponentsAreRemovedWhole) {
   ASSERT_EQ(spiral.size(), 48U);
   ContourOptions options = keep_all();
   options.min_component_px = 48;
-  EXPECT_EQ(trace(map_of(spiral, 50, 50), options).contours.size(), 1U);
+  EXPECT_EQ(trace(map_of(spiral, 50, 50), options).items.size(), 1U);
   options.min_component_px = 49;
-  EXPECT_EQ(trace(map_of(spiral, 50, 50), options).contours.size(), 0U);
+  EXPECT_EQ(trace(map_of(spiral, 50, 50), options).items.size(), 0U);
 }
 
 TEST(ContourTracer, OneComponentKeepsItsBranches) {
@@ -306,15 +306,15 @@ TEST(ContourTracer, RemembersNothing) {
   ASSERT_TRUE(tracer.run(second, contours));
   ASSERT_TRUE(tracer.run(first, contours));
   EXPECT_EQ(contours.points, expected.points);
-  EXPECT_EQ(contours.contours.size(), expected.contours.size());
+  EXPECT_EQ(contours.items.size(), expected.items.size());
   EXPECT_EQ(junctions_of(contours), junctions_of(expected));
 }
 
 TEST(ContourTracer, NoEdgesNoContours) {
   const ContourSet contours = trace(blank_map(30, 20), ContourOptions{});
   EXPECT_TRUE(contours.points.empty());
-  EXPECT_TRUE(contours.contours.empty());
-  EXPECT_TRUE(trace({}, ContourOptions{}).contours.empty());
+  EXPECT_TRUE(contours.items.empty());
+  EXPECT_TRUE(trace({}, ContourOptions{}).items.empty());
 }
 
 TEST(ContourTracer, MemoryIsSetByTheFrameSize) {
@@ -322,12 +322,12 @@ TEST(ContourTracer, MemoryIsSetByTheFrameSize) {
   ContourSet contours;
   ASSERT_TRUE(tracer.run(blank_map(50, 40), contours));
   const Pixel* points = contours.points.data();
-  const Contour* curves = contours.contours.data();
+  const Contour* curves = contours.items.data();
   const Junction* junctions = contours.junctions.data();
   for (const double density : {0.1, 0.25, 0.5, 1.0}) {
     ASSERT_TRUE(tracer.run(random_map(50, 40, density, 3), contours));
     EXPECT_EQ(contours.points.data(), points);
-    EXPECT_EQ(contours.contours.data(), curves);
+    EXPECT_EQ(contours.items.data(), curves);
     EXPECT_EQ(contours.junctions.data(), junctions);
   }
 }

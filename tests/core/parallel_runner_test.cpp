@@ -10,7 +10,7 @@
 namespace thermedge {
 namespace {
 
-TEST(Runner, RunsEveryTaskOnce) {
+TEST(ParallelRunner, RunsEveryTaskOnce) {
   for (const auto& runner : test::all_runners()) {
     for (const int count : {0, 1, 2, 7, 1000}) {
       std::vector<std::atomic<int>> calls(static_cast<std::size_t>(count));
@@ -22,7 +22,7 @@ TEST(Runner, RunsEveryTaskOnce) {
   }
 }
 
-TEST(Runner, HasTheThreadsAskedFor) {
+TEST(ParallelRunner, HasTheThreadsAskedFor) {
   EXPECT_EQ(make_runner(1)->threads(), 1);
   EXPECT_EQ(make_runner(5)->threads(), 5);
   EXPECT_GE(make_runner(0)->threads(), 1);

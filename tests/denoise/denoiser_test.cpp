@@ -38,7 +38,7 @@ Image<float> scene(int width, int height, double sigma, unsigned seed = 1) {
 }
 
 Image<float> denoised(const DenoiseOptions& options, ImageView<const float> in, double sigma,
-                      Runner& runner) {
+                      ParallelRunner& runner) {
   Image<float> out(in.width(), in.height());
   const Status status = Denoiser(options).run(in, sigma, out, runner);
   EXPECT_TRUE(status) << status.error().message;
@@ -241,7 +241,7 @@ Image<float> read_counts(const std::string& part) {
 }
 
 // Mean peak signal-to-noise ratio over the three photographs, dB; noisy ones hold 16 v + 8000.
-double mean_psnr(const DenoiseOptions& options, int sigma, Runner& runner) {
+double mean_psnr(const DenoiseOptions& options, int sigma, ParallelRunner& runner) {
   double sum = 0;
   for (const std::string name : {"b100007", "b107072", "b134049"}) {
     const Image<float> clean = read_counts("clean/" + name + ".png");

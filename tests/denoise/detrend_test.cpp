@@ -49,12 +49,12 @@ Image<float> bowl_with_objects() {
   return frame;
 }
 
-TEST(Shading, IsWhatChangesEvenlyFromSideToSide) {
+TEST(Detrender, IsWhatChangesEvenlyFromSideToSide) {
   const Image<float> frame = bowl_with_objects();
-  detail::Shading shading;
-  shading.measure(frame);
+  detail::Detrender detrend;
+  detrend.measure(frame);
   Image<float> flat(kWidth, kHeight);
-  shading.take_off(frame, flat);
+  detrend.subtract(frame, flat);
   const auto object_less = [&](int x, int y) { return flat(x, y) - flat(100, 60); };
   for (const auto& [x, y] : {std::pair{2, 3}, {100, 140}, {20, 130}, {140, 5}, {188, 90}}) {
     EXPECT_NEAR(object_less(x, y), 0, 2) << x << ' ' << y;  // of 60 counts from corner to corner
@@ -62,13 +62,13 @@ TEST(Shading, IsWhatChangesEvenlyFromSideToSide) {
   EXPECT_NEAR(object_less(50, 70), 400, 2);
 }
 
-TEST(Shading, IsPutBackAsItWas) {
+TEST(Detrender, IsPutBackAsItWas) {
   const Image<float> frame = bowl_with_objects();
-  detail::Shading shading;
-  shading.measure(frame);
+  detail::Detrender detrend;
+  detrend.measure(frame);
   Image<float> there_and_back(kWidth, kHeight);
-  shading.take_off(frame, there_and_back);
-  shading.put_back(there_and_back);
+  detrend.subtract(frame, there_and_back);
+  detrend.add(there_and_back);
   for (int y = 0; y < kHeight; ++y) {
     for (int x = 0; x < kWidth; ++x) {
       ASSERT_NEAR(there_and_back(x, y), frame(x, y), 1e-3);
@@ -76,12 +76,12 @@ TEST(Shading, IsPutBackAsItWas) {
   }
 }
 
-TEST(Shading, OfTinyFramesIsNone) {
+TEST(Detrender, OfTinyFramesIsNone) {
   Image<float> frame(5, 3);
   fill_pixels(frame.view(), 7.0F);
-  detail::Shading shading;
-  shading.measure(frame);
-  shading.take_off(frame, frame);
+  detail::Detrender detrend;
+  detrend.measure(frame);
+  detrend.subtract(frame, frame);
   EXPECT_EQ(frame(4, 2), 7);
 }
 
@@ -98,7 +98,7 @@ double terraces(ImageView<const float> frame) {
   return std::sqrt(squares / count);
 }
 
-TEST(Shading, MakesDenoisersLeaveSlopesSmooth) {
+TEST(Detrender, MakesDenoisersLeaveSlopesSmooth) {
   constexpr double kSigma = 10;
   Image<float> noisy = test::noise_image<float>(kWidth, kHeight, 1000, kSigma, 3);
   for (int y = 0; y < kHeight; ++y) {
@@ -106,9 +106,9 @@ TEST(Shading, MakesDenoisersLeaveSlopesSmooth) {
       noisy(x, y) += 0.8F * static_cast<float>(x);
     }
   }
-  const auto left = [&](bool shading) {
+  const auto left = [&](bool detrend) {
     DenoiseOptions options;
-    options.shading = shading;
+    options.detrend = detrend;
     Image<float> out(kWidth, kHeight);
     EXPECT_TRUE(Denoiser(options).run_measured(noisy, kSigma, out, *make_runner(1)));
     return terraces(out);

@@ -37,7 +37,7 @@ detail::DiagonalShares shares() {
 
 // Strength one pixel from (x, y) along `sign` times the normal, between the two neighbours there,
 // from the angles alone.
-double across(const Image<float>& strength, int x, int y, int direction, int sign) {
+double across(const Image<float>& response, int x, int y, int direction, int sign) {
   const double angle = direction % 12 * kStep;
   const double nx = -std::sin(angle);
   const double ny = std::cos(angle);
@@ -50,28 +50,28 @@ double across(const Image<float>& strength, int x, int y, int direction, int sig
   const double share = std::min(std::abs(dx), std::abs(dy));
   const double side = diagonal
                           ? 0
-                          : static_cast<double>(strength(x + static_cast<int>(toward_axis(dx)),
+                          : static_cast<double>(response(x + static_cast<int>(toward_axis(dx)),
                                                          y + static_cast<int>(toward_axis(dy))));
-  const double corner = strength(x + away(dx), y + away(dy));
+  const double corner = response(x + away(dx), y + away(dy));
   return diagonal ? corner : side + share * (corner - side);
 }
 
 TEST(OrientedKernels, RidgesAreNotBelowWhatLiesAcross) {
   for (const int count : {1, 2, 15, 16, 17, 33, 200}) {
-    const auto strength = noise_image<float>(count + 2 * kMargin, 2 * kMargin + 1, 3, 1, 11);
+    const auto response = noise_image<float>(count + 2 * kMargin, 2 * kMargin + 1, 3, 1, 11);
     const auto direction = directions(count + 2 * kMargin, 2 * kMargin + 1, 12);
     std::vector<std::int32_t> expected;
     for (int x = 0; x < count; ++x) {
-      const double at = strength(x + kMargin, kMargin);
+      const double at = response(x + kMargin, kMargin);
       const int own = direction(x + kMargin, kMargin);
-      if (at > 3 && at >= across(strength, x + kMargin, kMargin, own, 1) &&
-          at > across(strength, x + kMargin, kMargin, own, -1)) {
+      if (at > 3 && at >= across(response, x + kMargin, kMargin, own, 1) &&
+          at > across(response, x + kMargin, kMargin, own, -1)) {
         expected.push_back(x);
       }
     }
     for_each_simd_target([&](const std::string&) {
       std::vector<std::int32_t> places(static_cast<std::size_t>(count) + 64);
-      const int found = detail::find_ridges_row(strength.row(kMargin) + kMargin, strength.stride(),
+      const int found = detail::find_ridges_row(response.row(kMargin) + kMargin, response.stride(),
                                                 direction.row(kMargin) + kMargin, shares(), 3,
                                                 count, places.data());
       places.resize(static_cast<std::size_t>(found));
@@ -83,17 +83,17 @@ TEST(OrientedKernels, RidgesAreNotBelowWhatLiesAcross) {
 TEST(OrientedKernels, ProminenceIsOverTheLowerPairOfSides) {
   constexpr int kWidth = 120;
   constexpr int kHalf = 8;
-  const auto strength = noise_image<float>(kWidth, 2 * kHalf + 1, 3, 1, 13);
+  const auto response = noise_image<float>(kWidth, 2 * kHalf + 1, 3, 1, 13);
   const auto direction = directions(kWidth, 2 * kHalf + 1, 14);
   std::vector<std::int32_t> offsets;
   for (const int distance : {4, kHalf}) {
     for (int i = 0; i < 24; ++i) {
       const auto dx = static_cast<int>(std::lround(-distance * std::sin(i * kStep)));
       const auto dy = static_cast<int>(std::lround(distance * std::cos(i * kStep)));
-      offsets.push_back(static_cast<std::int32_t>(dy * strength.stride()) + dx);
+      offsets.push_back(static_cast<std::int32_t>(dy * response.stride()) + dx);
     }
   }
-  const float* row = strength.row(kHalf);
+  const float* row = response.row(kHalf);
   const std::int32_t* directions = direction.row(kHalf);
   const auto at = [&](int own, std::ptrdiff_t place) {
     const int turn = std::abs(directions[place] - directions[own]);
@@ -107,8 +107,8 @@ TEST(OrientedKernels, ProminenceIsOverTheLowerPairOfSides) {
       }
       for_each_simd_target([&](const std::string&) {
         std::vector<float> out(places.size());
-        detail::prominence_at_places(row, directions, offsets.data(), sides, places.data(), count,
-                                     out.data());
+        detail::suppressed_responses_at(row, directions, offsets.data(), sides, places.data(),
+                                        count, out.data());
         for (int i = 0; i < count; ++i) {
           const int place = kHalf + 2 * i;
           float least = 1e9F;

@@ -14,15 +14,15 @@ namespace thermedge {
 namespace {
 
 struct Found {
-  Image<float> strength, prominence;
+  Image<float> response, suppressed_response;
   Image<std::int32_t> direction;
   Image<std::uint8_t> edges;
 };
 
-Found find(ImageView<const float> frame, double sigma, const OrientedOptions& options = {},
+Found find(ImageView<const float> frame, double sigma, const OrientedFilterOptions& options = {},
            int threads = 1) {
   const auto runner = make_runner(threads);
-  OrientedEdges detector(options);
+  OrientedFilterBank detector(options);
   const auto result = detector.run(frame, sigma, 1, *runner);
   EXPECT_TRUE(result) << result.error().message;
   Found found;
@@ -30,13 +30,14 @@ Found find(ImageView<const float> frame, double sigma, const OrientedOptions& op
     image.resize(view.width(), view.height());
     copy_pixels(view, image.view());
   };
-  take(result->strength, found.strength);
+  take(result->response, found.response);
   take(result->direction, found.direction);
   take(result->edges, found.edges);
-  found.prominence.resize(frame.width(), frame.height());
+  found.suppressed_response.resize(frame.width(), frame.height());
   for (int y = 0; y < frame.height(); ++y) {
     for (int x = 0; x < frame.width(); ++x) {
-      found.prominence(x, y) = found.edges(x, y) != 0 ? result->prominence(x, y) : 0;
+      found.suppressed_response(x, y) =
+          found.edges(x, y) != 0 ? result->suppressed_response(x, y) : 0;
     }
   }
   return found;
@@ -58,7 +59,7 @@ Image<float> step(double degrees, double contrast) {
   return frame;
 }
 
-TEST(OrientedEdges, FindStepsOfAnyDirectionWhereTheyAre) {
+TEST(OrientedFilterBank, FindStepsOfAnyDirectionWhereTheyAre) {
   for (int degrees = 0; degrees < 360; degrees += 10) {
     const Found found = find(step(degrees, 20), 10);
     const double nx = std::cos(degrees * std::numbers::pi / 180);
@@ -80,29 +81,29 @@ TEST(OrientedEdges, FindStepsOfAnyDirectionWhereTheyAre) {
   }
 }
 
-TEST(OrientedEdges, NoiseOfOneSigmaGivesResponsesOfOneSigma) {
+TEST(OrientedFilterBank, NoiseOfOneSigmaGivesResponsesOfOneSigma) {
   const auto noise = test::noise_image<float>(300, 300, 3000, 7, 4);
-  OrientedOptions options;
+  OrientedFilterOptions options;
   options.low = options.high = 1e-3;
   const Found found = find(noise, 7, options);
   // Mean of the largest of twelve correlated responses, each of deviation 1.
   double sum = 0;
   for (int y = 0; y < 300; ++y) {
     for (int x = 0; x < 300; ++x) {
-      sum += found.strength(x, y);
+      sum += found.response(x, y);
     }
   }
   EXPECT_NEAR(sum / 90000, 1.45, 0.1);
 }
 
-TEST(OrientedEdges, AStepAnswersInUnitsOfTheNoise) {
+TEST(OrientedFilterBank, AStepAnswersInUnitsOfTheNoise) {
   const Found ten = find(step(0, 100), 10);
   const Found five = find(step(0, 100), 5);
-  EXPECT_NEAR(five.strength(50, 50), 2 * ten.strength(50, 50), 1e-3);
-  EXPECT_NEAR(ten.strength(50, 50) / 10, 2.4, 0.3);
+  EXPECT_NEAR(five.response(50, 50), 2 * ten.response(50, 50), 1e-3);
+  EXPECT_NEAR(ten.response(50, 50) / 10, 2.4, 0.3);
 }
 
-TEST(OrientedEdges, ASlopeIsNoEdge) {
+TEST(OrientedFilterBank, ASlopeIsNoEdge) {
   Image<float> slope(120, 90);
   for (int y = 0; y < 90; ++y) {
     for (int x = 0; x < 120; ++x) {
@@ -119,7 +120,7 @@ TEST(OrientedEdges, ASlopeIsNoEdge) {
   EXPECT_EQ(edges, 0);
 }
 
-TEST(OrientedEdges, TransposingAFrameTransposesTheEdges) {
+TEST(OrientedFilterBank, TransposingAFrameTransposesTheEdges) {
   auto frame = step(33, 30);
   const auto noise = test::noise_image<float>(101, 101, 0, 4, 9);
   Image<float> transposed(101, 101);
@@ -135,7 +136,7 @@ TEST(OrientedEdges, TransposingAFrameTransposesTheEdges) {
   int edges = 0;
   for (int y = 0; y < 101; ++y) {
     for (int x = 0; x < 101; ++x) {
-      EXPECT_NEAR(a.strength(x, y), b.strength(y, x), 1e-3);
+      EXPECT_NEAR(a.response(x, y), b.response(y, x), 1e-3);
       edges += a.edges(x, y) != 0 ? 1 : 0;
       differ += a.edges(x, y) != b.edges(y, x) ? 1 : 0;
     }
@@ -144,24 +145,24 @@ TEST(OrientedEdges, TransposingAFrameTransposesTheEdges) {
   EXPECT_LE(differ, edges / 50);
 }
 
-TEST(OrientedEdges, AreTheSameOnEveryTargetAndRunner) {
+TEST(OrientedFilterBank, AreTheSameOnEveryTargetAndRunner) {
   const auto frame = test::noise_image<float>(157, 93, 3000, 20, 2);
   Found expected;
   test::for_each_simd_target([&](const std::string&) {
     for (const int threads : {1, 3}) {
       Found found = find(frame, 15, {}, threads);
-      if (expected.strength.empty()) {
+      if (expected.response.empty()) {
         expected = std::move(found);
         continue;
       }
-      EXPECT_TRUE(test::same_pixels<float>(found.strength, expected.strength));
+      EXPECT_TRUE(test::same_pixels<float>(found.response, expected.response));
       EXPECT_TRUE(test::same_pixels<std::uint8_t>(found.edges, expected.edges));
       EXPECT_TRUE(test::same_pixels<std::int32_t>(found.direction, expected.direction));
     }
   });
 }
 
-TEST(OrientedEdges, TakeAnySize) {
+TEST(OrientedFilterBank, TakeAnySize) {
   for (int height = 1; height < 30; height += 4) {
     for (int width = 1; width < 30; ++width) {
       find(test::noise_image<float>(width, height, 100, 5, 3), 5);
@@ -169,19 +170,19 @@ TEST(OrientedEdges, TakeAnySize) {
   }
 }
 
-TEST(OrientedEdges, RefuseWhatTheyCannotDo) {
+TEST(OrientedFilterBank, RefuseWhatTheyCannotDo) {
   const auto runner = make_runner(1);
   const auto frame = test::noise_image<float>(20, 20, 100, 5, 3);
   const auto message = [&](ImageView<const float> in, double sigma,
-                           const OrientedOptions& options) {
-    OrientedEdges detector(options);
+                           const OrientedFilterOptions& options) {
+    OrientedFilterBank detector(options);
     const auto result = detector.run(in, sigma, 1, *runner);
     return result ? std::string("none") : result.error().message;
   };
   EXPECT_NE(message({}, 1, {}).find("no pixels"), std::string::npos);
   EXPECT_NE(message(frame, 0, {}).find("noise"), std::string::npos);
   EXPECT_NE(message(frame, std::nan(""), {}).find("noise"), std::string::npos);
-  OrientedOptions options;
+  OrientedFilterOptions options;
   options.along_px = 1;
   EXPECT_NE(message(frame, 1, options).find("oriented.along_px"), std::string::npos);
   options = {};

@@ -263,13 +263,13 @@ TEST(EvaluateSets, AreFoundByName) {
   write_map(directory / "truth/b_2.png", 5, 4, 255);
   write_map(directory / "truth/c/x.png", 5, 4, 255);
   test::write_text(directory / "truth/d.json", kOneEdge);
-  const auto found = FoundSet::open(directory / "found");
+  const auto found = PredictionSet::open(directory / "found");
   ASSERT_TRUE(found) << found.error().message;
   EXPECT_EQ(found->names(), (std::vector<std::string>{"a", "b", "c", "d", "e"}));
   EXPECT_FALSE(found->has_curves());
   EXPECT_EQ(found->read(0)->map(0, 0), 200);
 
-  const auto truth = TruthSet::open(directory / "truth", {10, {}});
+  const auto truth = GroundTruthSet::open(directory / "truth", {10, {}});
   ASSERT_TRUE(truth) << truth.error().message;
   EXPECT_TRUE(truth->check_frames(5));
   EXPECT_EQ(truth->read("a", 0)->maps.annotators[0](0, 0), 1);
@@ -294,7 +294,7 @@ TEST(EvaluateSets, AreInNaturalOrder) {
   for (const std::string name : {"f10.png", "f9.png", "f1.png", ".f0.png"}) {
     write_map(directory / name, 2, 2, 0);
   }
-  EXPECT_EQ(FoundSet::open(directory.path().string())->names(),
+  EXPECT_EQ(PredictionSet::open(directory.path().string())->names(),
             (std::vector<std::string>{"f1", "f9", "f10"}));
 }
 
@@ -302,36 +302,36 @@ TEST(EvaluateSets, JsonLinesHoldFramesInOrder) {
   const TemporaryDirectory directory;
   test::write_text(directory / "t.jsonl",
                    on_one_line(kOneEdge) + "\n" + R"({"width": 7, "height": 3, "edges": []})");
-  const auto truth = TruthSet::open(directory / "t.jsonl", {});
+  const auto truth = GroundTruthSet::open(directory / "t.jsonl", {});
   ASSERT_TRUE(truth) << truth.error().message;
   EXPECT_TRUE(truth->check_frames(2));
   EXPECT_EQ(truth->check_frames(3).error().message,
             directory / "t.jsonl: truth of 2 frames, but there are results of 3");
   EXPECT_EQ(truth->read("any", 1)->curves->width, 7);
-  const auto found = FoundSet::open(directory / "t.jsonl");
+  const auto found = PredictionSet::open(directory / "t.jsonl");
   ASSERT_TRUE(found);
   EXPECT_EQ(found->names().size(), 2U);
   EXPECT_EQ(found->read(0)->map(0, 1), 255);
   // A directory that holds nothing but such a file.
-  EXPECT_EQ(TruthSet::open(directory.path().string(), {})->read("any", 1)->curves->width, 7);
+  EXPECT_EQ(GroundTruthSet::open(directory.path().string(), {})->read("any", 1)->curves->width, 7);
 
   test::write_text(directory / "bad.jsonl", on_one_line(kOneEdge) + "\nrubbish\n");
-  EXPECT_EQ(FoundSet::open(directory / "bad.jsonl")->read(1).error().message,
+  EXPECT_EQ(PredictionSet::open(directory / "bad.jsonl")->read(1).error().message,
             directory / "bad.jsonl:3: should be a JSON object with width, height and edges");
   test::write_text(directory / "empty.jsonl", "\n \n");
-  EXPECT_FALSE(FoundSet::open(directory / "empty.jsonl"));
+  EXPECT_FALSE(PredictionSet::open(directory / "empty.jsonl"));
 }
 
 TEST(EvaluateSets, RefuseWhatIsNoSet) {
   const TemporaryDirectory directory;
-  EXPECT_EQ(FoundSet::open(directory / "missing").error().message,
+  EXPECT_EQ(PredictionSet::open(directory / "missing").error().message,
             directory / "missing: no such file or directory");
-  EXPECT_FALSE(TruthSet::open(directory / "missing", {}));
-  EXPECT_EQ(FoundSet::open(directory.path().string()).error().message,
+  EXPECT_FALSE(GroundTruthSet::open(directory / "missing", {}));
+  EXPECT_EQ(PredictionSet::open(directory.path().string()).error().message,
             directory.path().string() + ": no edge maps (PNG) or results (JSON) in it");
   write_map(directory / "a.png", 2, 2, 0);
   test::write_text(directory / "a.json", "{}");
-  EXPECT_EQ(FoundSet::open(directory.path().string()).error().message,
+  EXPECT_EQ(PredictionSet::open(directory.path().string()).error().message,
             directory.path().string() +
                 ": holds PNG and JSON files; name a directory that holds one kind");
   Image<std::uint16_t> deep(2, 2);

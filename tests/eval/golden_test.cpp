@@ -103,8 +103,8 @@ TEST(GoldenEvaluation, FiguresAreTheSame) {
       write("truth/" + name + "_" + std::to_string(annotator) + ".png", true_map(frame, annotator));
     }
   }
-  const auto found = FoundSet::open(directory / "found");
-  const auto truth = TruthSet::open(directory / "truth", {});
+  const auto found = PredictionSet::open(directory / "found");
+  const auto truth = GroundTruthSet::open(directory / "truth", {});
   ASSERT_TRUE(found && truth);
   for (const Figures& expected : kFigures) {
     EvaluationOptions options;

@@ -32,10 +32,10 @@ class EvaluationProperty : public testing::Test {
     const Status status = io::write_picture(directory_ / name, map);
     ASSERT_TRUE(status) << status.error().message;
   }
-  FoundSet found(const std::string& name = "found") const {
-    return *FoundSet::open(directory_ / name);
+  PredictionSet found(const std::string& name = "found") const {
+    return *PredictionSet::open(directory_ / name);
   }
-  TruthSet truth() const { return *TruthSet::open(directory_ / "truth", {}); }
+  GroundTruthSet truth() const { return *GroundTruthSet::open(directory_ / "truth", {}); }
 
   test::TemporaryDirectory directory_;
 };
@@ -50,7 +50,7 @@ TEST_F(EvaluationProperty, IsTheSameForEveryRunner) {
     with_truth = with_truth.empty() ? json : with_truth;
     EXPECT_EQ(json, with_truth);
 
-    const auto lone = evaluate_alone(found(), {}, *runner);
+    const auto lone = evaluate_without_truth(found(), {}, *runner);
     ASSERT_TRUE(lone) << lone.error().message;
     const std::string lone_json = evaluation_to_json(*lone, "a");
     alone = alone.empty() ? lone_json : alone;
@@ -149,7 +149,7 @@ TEST_F(EvaluationProperty, OptionsOutOfRangeAreNamed) {
     EvaluationOptions options;
     change(options);
     const auto result = evaluate(found(), truth(), options, *runner);
-    EXPECT_FALSE(evaluate_alone(found(), options, *runner));
+    EXPECT_FALSE(evaluate_without_truth(found(), options, *runner));
     return result ? std::string() : result.error().message;
   };
   EXPECT_EQ(message([](auto& o) { o.count.max_distance = 0.2; }),

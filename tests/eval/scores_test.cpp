@@ -149,7 +149,7 @@ TEST(Counts, RefuseOtherSizesAndNoTruth) {
   EXPECT_FALSE(count_matches(map.view(), TruthMaps{}, std::vector<int>{1}, {}));
 }
 
-TEST(Merit, OfHandMadeMaps) {
+TEST(PrattFom, OfHandMadeMaps) {
   std::vector<Map> truth;
   truth.push_back(map_of({"......", "######", "......", "......"}));
   const auto merit = [&](const std::vector<std::string>& rows) {
@@ -161,7 +161,7 @@ TEST(Merit, OfHandMadeMaps) {
   EXPECT_NEAR(merit({"......", "###...", "......", "......"}), 0.5, 1e-12);       // half is missing
   EXPECT_EQ(merit({"......", "......", "......", "......"}), 0.0);
   truth.push_back(map_of({"......", "......", "......", "......"}));
-  const Merit both = pratt_merit(map_of({"......", "######", "......", "......"}).view(), truth);
+  const PrattFom both = pratt_merit(map_of({"......", "######", "......", "......"}).view(), truth);
   EXPECT_NEAR(both.mean, 0.5, 1e-12);
   EXPECT_EQ(both.best, 1.0);
   EXPECT_EQ(pratt_merit(truth[1].view(), std::span(truth).subspan(1)).mean, 1.0);

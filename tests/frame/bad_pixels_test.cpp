@@ -12,7 +12,7 @@
 
 namespace thermedge {
 
-void PrintTo(const DeadPixel& pixel, std::ostream* out) {
+void PrintTo(const BadPixel& pixel, std::ostream* out) {
   *out << "(" << pixel.x << ", " << pixel.y << ")";
 }
 
@@ -28,16 +28,16 @@ Image<std::uint16_t> noise(int width, int height, unsigned seed) {
   return noise_image<std::uint16_t>(width, height, 3000, kSigma, seed);
 }
 
-std::vector<DeadPixel> correct(ImageView<std::uint16_t> frame, const NucOptions& options = {}) {
-  std::vector<DeadPixel> dead = {{99, 99}};
-  correct_dead_pixels(frame, kSigma, options, dead);
+std::vector<BadPixel> correct(ImageView<std::uint16_t> frame, const BadPixelOptions& options = {}) {
+  std::vector<BadPixel> dead = {{99, 99}};
+  replace_bad_pixels(frame, kSigma, options, dead);
   return dead;
 }
 
 // The rule of the header, written from its words: all pixels, sorted lists, no shortcuts.
-std::vector<DeadPixel> reference_dead_pixels(ImageView<const std::uint16_t> frame, double sigma,
-                                             double sigmas) {
-  std::vector<DeadPixel> dead;
+std::vector<BadPixel> reference_bad_pixels(ImageView<const std::uint16_t> frame, double sigma,
+                                           double sigmas) {
+  std::vector<BadPixel> dead;
   const double limit = std::floor(std::max(sigma, 1.0) * sigmas);
   for (int y = 0; y < frame.height(); ++y) {
     for (int x = 0; x < frame.width(); ++x) {
@@ -78,7 +78,7 @@ TEST(DeadPixelsReference, AgreesOnSmallSizesAndTargets) {
           const int y = static_cast<int>(random() % static_cast<unsigned>(height));
           frame.view()(x, y) = static_cast<std::uint16_t>(random() % 65536);
         }
-        const auto expected = reference_dead_pixels(frame.view(), kSigma, 6);
+        const auto expected = reference_bad_pixels(frame.view(), kSigma, 6);
         EXPECT_EQ(correct(frame.view()), expected) << width << "x" << height;
         EXPECT_TRUE(frame.intact());
       }
@@ -86,13 +86,13 @@ TEST(DeadPixelsReference, AgreesOnSmallSizesAndTargets) {
   });
 }
 
-void expect_corrected(const std::vector<DeadPixel>& places, const std::vector<int>& values) {
+void expect_corrected(const std::vector<BadPixel>& places, const std::vector<int>& values) {
   Image<std::uint16_t> frame = noise(40, 30, 8);
   for (std::size_t i = 0; i < places.size(); ++i) {
     frame(places[i].x, places[i].y) = static_cast<std::uint16_t>(values[i % values.size()]);
   }
   EXPECT_EQ(correct(frame), places);
-  for (const DeadPixel& place : places) {
+  for (const BadPixel& place : places) {
     EXPECT_NEAR(frame(place.x, place.y), 3000, 3 * kSigma);
   }
 }
@@ -127,7 +127,7 @@ TEST(DeadPixels, TakesTheMedianOfGoodNeighbours) {
   frame(3, 3) = 9000;
   frame(4, 3) = 9000;
   const std::uint16_t around[] = {491, 492, 493, 494, 506, 507, 508};
-  const DeadPixel places[] = {{2, 2}, {3, 2}, {4, 2}, {2, 3}, {2, 4}, {3, 4}, {4, 4}};
+  const BadPixel places[] = {{2, 2}, {3, 2}, {4, 2}, {2, 3}, {2, 4}, {3, 4}, {4, 4}};
   for (int i = 0; i < 7; ++i) {
     frame(places[i].x, places[i].y) = around[i];
   }
@@ -193,15 +193,15 @@ TEST(DeadPixels, ObeysItsOptions) {
   fill_pixels(frame.view(), std::uint16_t{1000});
   frame(10, 10) = 1030;
   EXPECT_TRUE(correct(frame).empty()) << "6 sigma is not more than 6 sigma";
-  NucOptions options;
-  options.dead_pixel_sigmas = 5.9;
+  BadPixelOptions options;
+  options.threshold_sigmas = 5.9;
   EXPECT_EQ(correct(frame, options).size(), 1U);
-  std::vector<DeadPixel> dead;
+  std::vector<BadPixel> dead;
   frame(10, 10) = 1006;
-  correct_dead_pixels(frame, 0, {}, dead);  // sigma is taken as 1
+  replace_bad_pixels(frame, 0, {}, dead);  // sigma is taken as 1
   EXPECT_TRUE(dead.empty());
   frame(10, 10) = 1007;
-  correct_dead_pixels(frame, 0, {}, dead);
+  replace_bad_pixels(frame, 0, {}, dead);
   EXPECT_EQ(dead.size(), 1U);
 }
 

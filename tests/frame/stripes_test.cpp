@@ -68,7 +68,7 @@ Rendered render(const Scene& scene) {
   return out;
 }
 
-StripeOffsets measured(ImageView<const std::uint16_t> frame, double sigma, Runner& runner) {
+StripeOffsets measured(ImageView<const std::uint16_t> frame, double sigma, ParallelRunner& runner) {
   StripeOffsets offsets;
   StripeFinder().measure(frame, sigma, runner, offsets);
   return offsets;
@@ -195,7 +195,7 @@ TEST(Stripes, AreTheSameOnEveryTargetAndRunner) {
   scene.stripe_sigmas = 0.3;
   scene.step_sigmas = 2;
   const Rendered rendered = render(scene);
-  const auto of = [&](Runner& runner) {
+  const auto of = [&](ParallelRunner& runner) {
     const StripeOffsets found = measured(rendered.frame, 20, runner);
     EXPECT_FALSE(found.columns.empty());
     return found;

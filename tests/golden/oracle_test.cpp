@@ -33,10 +33,10 @@ CornerSet find_corners(const ContourSet& contours, bool end_points) {
 
 void expect_same_contours(const OracleMap& map) {
   const ContourSet contours = trace(map);
-  ASSERT_EQ(contours.contours.size(), map.curves.size());
+  ASSERT_EQ(contours.items.size(), map.curves.size());
   for (std::size_t i = 0; i < map.curves.size(); ++i) {
     SCOPED_TRACE("curve " + std::to_string(i));
-    EXPECT_EQ(contours.contours[i].closed, map.curves[i].closed);
+    EXPECT_EQ(contours.items[i].closed, map.curves[i].closed);
     EXPECT_EQ(pixels_of(contours, i), map.curves[i].pixels);
   }
 }
@@ -65,9 +65,9 @@ std::vector<Pixel> all_corners(const OracleMap& map) {
   const ContourSet contours = trace(map);
   const CornerSet corners = find_corners(contours, true);
   std::vector<Pixel> pixels;
-  for (std::size_t i = 0; i < contours.contours.size(); ++i) {
+  for (std::size_t i = 0; i < contours.items.size(); ++i) {
     for (const std::uint32_t index : slice(corners.indices, corners.ranges[i])) {
-      pixels.push_back(contours.pixels(contours.contours[i])[index]);
+      pixels.push_back(contours.pixels(contours.items[i])[index]);
     }
   }
   return sorted(pixels);

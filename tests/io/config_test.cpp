@@ -8,7 +8,7 @@ namespace {
 DetectorOptions unusual_options() {
   DetectorOptions options;
   options.threads = 3;
-  options.nuc.dead_pixels = false;
+  options.nuc.bad_pixels = false;
   options.scale.gain = 1.0 / 3.0;
   options.denoise.method = DenoiseMethod::kNlm;
   options.denoise.bm3d.lambda = 3.1;
@@ -26,7 +26,7 @@ TEST(Config, ReadsBackWhatItDumps) {
   EXPECT_EQ(dump_config(options), text);
   EXPECT_EQ(options.scale.gain, 1.0 / 3.0);
   EXPECT_EQ(options.denoise.method, DenoiseMethod::kNlm);
-  EXPECT_FALSE(options.nuc.dead_pixels);
+  EXPECT_FALSE(options.nuc.bad_pixels);
 }
 
 TEST(Config, LeavesOptionsThatTheFileDoesNotName) {
@@ -118,13 +118,13 @@ TEST(Setting, RefusesWhatIsNotAnOption) {
   EXPECT_EQ(setting_error("contours.gap_px"), "'contours.gap_px' should read stage.option=value");
   EXPECT_EQ(setting_error("magic=1"), "unknown option 'magic'; --dump-config lists all options");
   EXPECT_EQ(setting_error("link.gap_px=1"),
-            "unknown option 'link.gap_px'; did you mean contours.gap_px, bridging.gap_px, "
+            "unknown option 'link.gap_px'; did you mean contours.gap_px, gap_closing.gap_px, "
             "linking.gap_px?");
   EXPECT_EQ(setting_error("contours.gap_px=two"), "contours.gap_px = two should be a whole number");
   EXPECT_EQ(setting_error("contours.gap_px=2x"), "contours.gap_px = 2x should be a whole number");
   EXPECT_EQ(setting_error("linking.gap_px=33"), "linking.gap_px = 33 is out of range: 0 to 32");
   EXPECT_EQ(setting_error("linking.gap_px=nan"), "linking.gap_px = nan is out of range: 0 to 32");
-  EXPECT_EQ(setting_error("nuc.dead_pixels=yes"), "nuc.dead_pixels = yes should be true or false");
+  EXPECT_EQ(setting_error("nuc.bad_pixels=yes"), "nuc.bad_pixels = yes should be true or false");
 }
 
 }  // namespace

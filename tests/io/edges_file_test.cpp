@@ -30,7 +30,7 @@ Detection two_edges() {
   set.edges[0].edgels = {0, 3};
   set.edges[0].corners = {0, 3};
   set.edges[0].connections = {0, 1};
-  set.edges[1].id = set.edges[1].rank = 1;
+  set.edges[1].index = set.edges[1].rank = 1;
   set.edges[1].edgels = {3, 2};
   set.edges[1].corners = {3, 2};
   set.edges[1].connections = {1, 1};

@@ -56,7 +56,7 @@ RecordingReport report_with_every_suggestion() {
   report.container_bits = 16;
   report.sigma_counts = 9.64;
   report.frame_sigma_counts = 8;
-  report.passing_dead_pixels = 30;
+  report.passing_bad_pixels = 30;
   report.row_sigma_counts = 2.1;
   report.clipping = {{0.5, 0.6}, {0.2, 0.3}, {0.1, 0.021}, {0.05, 0.001}, {0.02, 0}};
   report.suggested = suggest_options(report);
@@ -71,7 +71,7 @@ TEST(ProbeFile, SuggestionsAreTakenByTheDetector) {
   ASSERT_TRUE(status) << status.error().message;
   EXPECT_EQ(options.scale.gain, 0.05);
   EXPECT_EQ(options.denoise.sigma_counts, 9.6);
-  EXPECT_EQ(options.nuc.dead_pixel_sigmas, 12);
+  EXPECT_EQ(options.nuc.threshold_sigmas, 12);
   EXPECT_EQ(options.contours.min_component_px, 21);
   EXPECT_TRUE(options.nuc.stripes);
   EXPECT_TRUE(check_options(options));

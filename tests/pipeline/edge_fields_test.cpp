@@ -121,8 +121,8 @@ TEST(DistanceTransform, OfNothingIsFarEverywhere) {
 // Two edges that cross at (3, 2), and one that is not kept.
 EdgeSet cross() {
   EdgeSet set;
-  add_edge(set, {{1, 2}, {2, 2}, {3.4F, 1.6F}, {4, 2}, {5, 2}}).strength = 1;
-  add_edge(set, {{3, 0}, {3, 1}, {3, 2}, {3, 3}, {3, 400}}).strength = 0.5;
+  add_edge(set, {{1, 2}, {2, 2}, {3.4F, 1.6F}, {4, 2}, {5, 2}}).display_strength = 1;
+  add_edge(set, {{3, 0}, {3, 1}, {3, 2}, {3, 3}, {3, 400}}).display_strength = 0.5;
   add_edge(set, {{5, 2}, {6, 3}, {-1, 0}}, false, false);
   return set;
 }
@@ -150,7 +150,7 @@ TEST(Drawing, MaskShowsKeptEdges) {
 TEST(Drawing, LabelsShowTheBetterEdgeWhereTwoCross) {
   GuardedImage<std::uint16_t> labels(8, 4);
   EdgeSet set = cross();
-  set.edges[0].id = 70000;
+  set.edges[0].index = 70000;
   draw_labels(set, labels.view());
   expect_pixels(labels.view(), {{0, 0, 0, 2, 0, 0, 0, 0},
                                 {0, 0, 0, 2, 0, 0, 0, 0},

@@ -45,10 +45,9 @@ TEST_P(ProbeOfScene, FindsNoiseAndStripes) {
     SCOPED_TRACE(sigma);
     const double columns = sigma / 2;
     const double rows = sigma / 3;
-    const auto report =
-        probe(scene_frames(std::string("sim:") + GetParam() + "?frames=8&dead_pixels=0&sigma=" +
-                           std::to_string(sigma) + "&column_sigma=" + std::to_string(columns) +
-                           "&row_sigma=" + std::to_string(rows)));
+    const auto report = probe(scene_frames(
+        std::string("sim:") + GetParam() + "?frames=8&bad_pixels=0&sigma=" + std::to_string(sigma) +
+        "&column_sigma=" + std::to_string(columns) + "&row_sigma=" + std::to_string(rows)));
     EXPECT_NEAR(report.sigma_counts / sigma, 1, 0.03);
     EXPECT_NEAR(report.frame_sigma_counts / sigma, 1, 0.03);
     ASSERT_TRUE(report.temporal_sigma_counts);
@@ -56,7 +55,7 @@ TEST_P(ProbeOfScene, FindsNoiseAndStripes) {
     EXPECT_NEAR(report.column_sigma_counts / columns, 1, 0.15);
     EXPECT_NEAR(report.row_sigma_counts / rows, 1, 0.3);
     EXPECT_LT(report.fixed_pattern_share.value_or(0), 0.05) << "stripes are no pixel offsets";
-    EXPECT_EQ(report.dead_pixels, 0);
+    EXPECT_EQ(report.bad_pixels, 0);
     EXPECT_GE(report.scene_moved, 2) << "the hand begins slowly";
     EXPECT_EQ(report.snr, report.robust_range_counts / report.sigma_counts);
   }
@@ -125,21 +124,21 @@ TEST(Probe, OfUnevenNoiseGivesItsRootMeanSquareAndItsMap) {
 }
 
 TEST(Probe, CountsLastingDeadPixels) {
-  const auto report = probe(scene_frames("sim:desk?frames=6&dead_pixels=20"));
-  ASSERT_TRUE(report.dead_pixels);
-  EXPECT_NEAR(static_cast<double>(*report.dead_pixels), 20, 1);
-  EXPECT_LT(report.passing_dead_pixels, 2);
+  const auto report = probe(scene_frames("sim:desk?frames=6&bad_pixels=20"));
+  ASSERT_TRUE(report.bad_pixels);
+  EXPECT_NEAR(static_cast<double>(*report.bad_pixels), 20, 1);
+  EXPECT_LT(report.passing_bad_pixels, 2);
 }
 
 TEST(Probe, TellsPassingPixelsFromDeadOnes) {
-  auto frames = scene_frames("sim:desk?frames=6&dead_pixels=0");
+  auto frames = scene_frames("sim:desk?frames=6&bad_pixels=0");
   for (std::size_t i = 0; i < frames.size(); ++i) {
     frames[i](100, 100) = 0;
     frames[i](150 + 10 * static_cast<int>(i), 50) = 16000;  // a different one in every frame
   }
   const auto report = probe(frames);
-  EXPECT_EQ(report.dead_pixels, 1);
-  EXPECT_NEAR(report.passing_dead_pixels, 1, 0.2);
+  EXPECT_EQ(report.bad_pixels, 1);
+  EXPECT_NEAR(report.passing_bad_pixels, 1, 0.2);
 }
 
 std::vector<Image<std::uint16_t>> with_repeats(std::vector<Image<std::uint16_t>> frames,
@@ -193,8 +192,8 @@ TEST(Probe, OfOneFrameLeavesOpenWhatTakesMore) {
   EXPECT_FALSE(report.temporal_sigma_counts);
   EXPECT_FALSE(report.fixed_pattern_share);
   EXPECT_FALSE(report.flicker_counts);
-  EXPECT_FALSE(report.dead_pixels);
-  EXPECT_NEAR(report.passing_dead_pixels, 5, 1);
+  EXPECT_FALSE(report.bad_pixels);
+  EXPECT_NEAR(report.passing_bad_pixels, 5, 1);
 }
 
 TEST(Probe, Of8BitPicturesSuggestsNoGain) {

@@ -54,20 +54,20 @@ TEST_P(ContoursOf, TheLongCurvesAreThoseOfAllCurves) {
     const ContourSet all = trace(edges, 1);
     const ContourSet longer = trace(edges, 6);
     std::size_t next = 0;
-    for (std::size_t i = 0; i < all.contours.size(); ++i) {
-      if (all.contours[i].points.count >= 6) {
-        ASSERT_LT(next, longer.contours.size());
+    for (std::size_t i = 0; i < all.items.size(); ++i) {
+      if (all.items[i].points.count >= 6) {
+        ASSERT_LT(next, longer.items.size());
         ASSERT_EQ(pixels_of(longer, next), pixels_of(all, i));
         ++next;
       }
     }
-    EXPECT_EQ(next, longer.contours.size());
+    EXPECT_EQ(next, longer.items.size());
   }
 }
 
 TEST_P(ContoursOf, StepsStayWithinTheGap) {
   const ContourSet contours = trace(map(3), 1);
-  for (std::size_t i = 0; i < contours.contours.size(); ++i) {
+  for (std::size_t i = 0; i < contours.items.size(); ++i) {
     const auto pixels = pixels_of(contours, i);
     for (std::size_t k = 1; k < pixels.size(); ++k) {
       ASSERT_LE(std::abs(pixels[k].x - pixels[k - 1].x), GetParam().gap_px);
@@ -87,14 +87,14 @@ TEST_P(ContoursOf, MoveWithTheMap) {
   const ContourSet here = moved_to({2, 3});
   const ContourSet there = moved_to({19, 24});
   ASSERT_EQ(here.points.size(), there.points.size());
-  ASSERT_EQ(here.contours.size(), there.contours.size());
+  ASSERT_EQ(here.items.size(), there.items.size());
   ASSERT_EQ(here.junctions.size(), there.junctions.size());
   for (std::size_t i = 0; i < here.points.size(); ++i) {
     ASSERT_EQ((Pixel{here.points[i].x + 17, here.points[i].y + 21}), there.points[i]);
   }
-  for (std::size_t i = 0; i < here.contours.size(); ++i) {
-    EXPECT_EQ(here.contours[i].points, there.contours[i].points);
-    EXPECT_EQ(here.contours[i].closed, there.contours[i].closed);
+  for (std::size_t i = 0; i < here.items.size(); ++i) {
+    EXPECT_EQ(here.items[i].points, there.items[i].points);
+    EXPECT_EQ(here.items[i].closed, there.items[i].closed);
   }
 }
 

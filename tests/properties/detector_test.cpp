@@ -188,10 +188,10 @@ TEST(RobustDetector, SaysWhyEdgesWereDropped) {
     const Edge& edge = set.edges[i];
     const bool weak = edge.score < 1.5;
     const bool insignificant = edge.log10_nfa > -6;
-    EXPECT_EQ(edge.verdict, i < 3           ? EdgeVerdict::kKept
-                            : weak          ? EdgeVerdict::kWeak
-                            : insignificant ? EdgeVerdict::kInsignificant
-                                            : EdgeVerdict::kBeyondBudget);
+    EXPECT_EQ(edge.status, i < 3           ? EdgeStatus::kKept
+                           : weak          ? EdgeStatus::kWeak
+                           : insignificant ? EdgeStatus::kInsignificant
+                                           : EdgeStatus::kBeyondBudget);
     EXPECT_EQ(edge.kept, i < 3);
   }
 }

@@ -28,8 +28,8 @@ Image<std::uint16_t> scene(double middle, unsigned seed, double range = 400) {
 
 class Sequence {
  public:
-  explicit Sequence(const StableViewOptions& options = {}) : view_(options) {}
-  ViewState show(const Image<std::uint16_t>& frame) {
+  explicit Sequence(const StableGreyScaleOptions& options = {}) : view_(options) {}
+  GreyScaleState show(const Image<std::uint16_t>& frame) {
     levels_.resize(frame.width(), frame.height());
     const auto state = view_.run(frame, levels_);
     EXPECT_TRUE(state);
@@ -40,7 +40,7 @@ class Sequence {
 
  private:
   // The levels are what gain and offset say, and the shares what is outside.
-  void expect_levels(const Image<std::uint16_t>& frame, const ViewState& state) const {
+  void expect_levels(const Image<std::uint16_t>& frame, const GreyScaleState& state) const {
     std::size_t low = 0, high = 0;
     for (int y = 0; y < frame.height(); ++y) {
       for (int x = 0; x < frame.width(); ++x) {
@@ -56,41 +56,41 @@ class Sequence {
     EXPECT_NEAR(state.clipped_high_share, static_cast<double>(high) / pixels, 2 / pixels);
   }
 
-  StableView view_;
+  StableGreyScale view_;
   Image<std::uint8_t> levels_;
 };
 
-TEST(StableView, BeginsAsAlgorithm1) {
+TEST(StableGreyScale, BeginsAsAlgorithm1) {
   const Image<std::uint16_t> frame = scene(3000, 1);
   Sequence sequence;
-  const ViewState state = sequence.show(frame);
-  EXPECT_EQ(state.event, ViewEvent::kStart);
+  const GreyScaleState state = sequence.show(frame);
+  EXPECT_EQ(state.event, GreyScaleEvent::kStart);
   EXPECT_EQ(state.gain, 0.2);
   Image<std::uint8_t> wanted(64, 48);
   ASSERT_TRUE(scale_to_8bit(frame, {.gain = 0.2}, wanted));
   EXPECT_TRUE(test::same_pixels<std::uint8_t>(sequence.levels().view(), wanted.view()));
 }
 
-TEST(StableView, StaysPutWithinTheDeadBand) {
+TEST(StableGreyScale, StaysPutWithinTheDeadBand) {
   Sequence sequence;
-  const ViewState first = sequence.show(scene(3000, 1));
+  const GreyScaleState first = sequence.show(scene(3000, 1));
   for (unsigned i = 2; i < 30; ++i) {
     // +-150 counts are 30 levels.
-    const ViewState state = sequence.show(scene(3000 + 150 * std::sin(i), i));
+    const GreyScaleState state = sequence.show(scene(3000 + 150 * std::sin(i), i));
     EXPECT_EQ(state.offset, first.offset);
-    EXPECT_EQ(state.event, ViewEvent::kNone);
+    EXPECT_EQ(state.event, GreyScaleEvent::kNone);
   }
 }
 
-TEST(StableView, FollowsADriftByNoMoreThanTheSlewLimit) {
+TEST(StableGreyScale, FollowsADriftByNoMoreThanTheSlewLimit) {
   for (const double direction : {1.0, -1.0}) {
     Sequence sequence;
-    ViewState before = sequence.show(scene(30000, 1));
+    GreyScaleState before = sequence.show(scene(30000, 1));
     const double start = before.offset;
     for (unsigned i = 1; i < 200; ++i) {
-      const ViewState state = sequence.show(scene(30000 + direction * 4.0 * i, i));
+      const GreyScaleState state = sequence.show(scene(30000 + direction * 4.0 * i, i));
       EXPECT_LE(std::abs(state.offset - before.offset), 1 + 1e-9);
-      EXPECT_EQ(state.event, ViewEvent::kNone);
+      EXPECT_EQ(state.event, GreyScaleEvent::kNone);
       before = state;
     }
     // 796 counts are 159 levels, of which the dead band takes 32.
@@ -98,7 +98,7 @@ TEST(StableView, FollowsADriftByNoMoreThanTheSlewLimit) {
   }
 }
 
-TEST(StableView, MovesNoFartherThanTheEdgeOfTheDeadBand) {
+TEST(StableGreyScale, MovesNoFartherThanTheEdgeOfTheDeadBand) {
   Sequence sequence;
   const double start = sequence.show(scene(3000, 1)).offset;
   double end = start;
@@ -108,14 +108,14 @@ TEST(StableView, MovesNoFartherThanTheEdgeOfTheDeadBand) {
   EXPECT_NEAR(start - end, 8, 0.5);
 }
 
-TEST(StableView, JumpsOnceAtASceneCut) {
+TEST(StableGreyScale, JumpsOnceAtASceneCut) {
   Sequence sequence;
   sequence.show(scene(3000, 1));
   int events = 0;
   for (unsigned i = 0; i < 20; ++i) {
-    const ViewState state = sequence.show(scene(9000, i));
-    events += state.event == ViewEvent::kSceneCut ? 1 : 0;
-    EXPECT_EQ(state.event == ViewEvent::kSceneCut, i == 2) << i;  // the third clipped frame
+    const GreyScaleState state = sequence.show(scene(9000, i));
+    events += state.event == GreyScaleEvent::kSceneCut ? 1 : 0;
+    EXPECT_EQ(state.event == GreyScaleEvent::kSceneCut, i == 2) << i;  // the third clipped frame
     if (i >= 2) {
       EXPECT_LT(state.clipped_low_share + state.clipped_high_share, 0.01);
     }
@@ -123,28 +123,28 @@ TEST(StableView, JumpsOnceAtASceneCut) {
   EXPECT_EQ(events, 1);
 }
 
-TEST(StableView, LetsAFlashPass) {
+TEST(StableGreyScale, LetsAFlashPass) {
   Sequence sequence;
   const double offset = sequence.show(scene(3000, 1)).offset;
   for (unsigned i = 0; i < 30; ++i) {
     const bool flash = i % 10 < 2;
-    const ViewState state = sequence.show(scene(flash ? 9000 : 3000, i));
-    EXPECT_EQ(state.event, ViewEvent::kNone);
+    const GreyScaleState state = sequence.show(scene(flash ? 9000 : 3000, i));
+    EXPECT_EQ(state.event, GreyScaleEvent::kNone);
     EXPECT_EQ(state.offset, offset);
   }
 }
 
-TEST(StableView, DoesNotJumpWhereThatWouldNotHelp) {
+TEST(StableGreyScale, DoesNotJumpWhereThatWouldNotHelp) {
   // The scene has four times the range of the view: clipped wherever the view lies.
   Sequence sequence;
   sequence.show(scene(20000, 1, 5000));
   for (unsigned i = 2; i < 20; ++i) {
-    EXPECT_EQ(sequence.show(scene(20000, i, 5000)).event, ViewEvent::kNone);
+    EXPECT_EQ(sequence.show(scene(20000, i, 5000)).event, GreyScaleEvent::kNone);
   }
 }
 
-TEST(StableView, ChoosesTheGainFromTheNoise) {
-  StableViewOptions options;
+TEST(StableGreyScale, ChoosesTheGainFromTheNoise) {
+  StableGreyScaleOptions options;
   options.gain = 0;
   Sequence sequence(options);
   const double gain = sequence.show(scene(3000, 1)).gain;
@@ -155,48 +155,48 @@ TEST(StableView, ChoosesTheGainFromTheNoise) {
   EXPECT_EQ(Sequence(options).show(flat).gain, 1);
 }
 
-TEST(StableView, TakesExtremeFrames) {
+TEST(StableGreyScale, TakesExtremeFrames) {
   for (const auto value : {std::uint16_t{0}, std::uint16_t{65535}}) {
     Image<std::uint16_t> flat(9, 7);
     fill_pixels(flat.view(), value);
     Sequence sequence;
-    const ViewState state = sequence.show(flat);
+    const GreyScaleState state = sequence.show(flat);
     EXPECT_EQ(state.clipped_low_share + state.clipped_high_share, 0);
     EXPECT_EQ(sequence.levels()(4, 3), 127);
     sequence.show(scene(3000, 1));  // another size and content
   }
 }
 
-TEST(StableView, RefusesBadInputAndStaysAsItWas) {
-  StableView view;
+TEST(StableGreyScale, RefusesBadInputAndStaysAsItWas) {
+  StableGreyScale view;
   Image<std::uint8_t> levels(64, 48), other(10, 10);
   EXPECT_FALSE(view.run(scene(3000, 1), other));
   EXPECT_FALSE(view.run(ImageView<const std::uint16_t>(), ImageView<std::uint8_t>()));
   const auto state = view.run(scene(3000, 1), levels);
   ASSERT_TRUE(state);
-  EXPECT_EQ(state->event, ViewEvent::kStart);
+  EXPECT_EQ(state->event, GreyScaleEvent::kStart);
 
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  StableViewOptions bad[6];
+  StableGreyScaleOptions bad[6];
   bad[0].gain = -1;
   bad[1].gain = nan;
   bad[2].dead_band_levels = 128;
   bad[3].slew_levels = nan;
   bad[4].cut_clipped_share = 2;
   bad[5].cut_frames = 0;
-  for (const StableViewOptions& options : bad) {
-    const auto refused = StableView(options).run(scene(3000, 1), levels);
+  for (const StableGreyScaleOptions& options : bad) {
+    const auto refused = StableGreyScale(options).run(scene(3000, 1), levels);
     ASSERT_FALSE(refused);
-    EXPECT_NE(refused.error().message.find("stable_view."), std::string::npos);
+    EXPECT_NE(refused.error().message.find("stable_grey_scale."), std::string::npos);
   }
 }
 
-TEST(StableView, IsStillOnARealRecording) {
+TEST(StableGreyScale, IsStillOnARealRecording) {
   THERMEDGE_NEEDS_SHARED("data/optris_pi450");
   const auto source =
       io::open_files({(test::shared_directory() / "data/optris_pi450").string()}, {});
   ASSERT_TRUE(source);
-  StableView view;
+  StableGreyScale view;
   io::Frame frame;
   Image<std::uint8_t> levels;
   double before = 0, change = 0, algorithm1_change = 0, clipped = 0;

@@ -267,7 +267,7 @@ TEST(Scorer, TheBestComeFirst) {
   EXPECT_EQ(start_of(edges, 3), (Pixel{10, 10}));
   for (std::size_t rank = 0; rank < 4; ++rank) {
     EXPECT_EQ(edges.edges[rank].rank, static_cast<int>(rank));
-    EXPECT_EQ(edges.edges[rank].id, static_cast<int>(rank));
+    EXPECT_EQ(edges.edges[rank].index, static_cast<int>(rank));
     EXPECT_EQ(edges.edges[rank].track, -1);
   }
 }
@@ -290,15 +290,15 @@ TEST(Scorer, ProminentAndLongEdgesComeFirstWhereProminenceIsGiven) {
   frame.add(straight({10, 10}, {49, 10}));
   frame.add(straight({10, 20}, {49, 20}));
   frame.add(straight({10, 30}, {29, 30}));
-  Image<float> prominence(382, 288);
-  fill_pixels(prominence.view(), 0.0F);
-  for (int x = 0; x < prominence.width(); ++x) {
-    prominence(x, 10) = 2;
-    prominence(x, 20) = 6;
-    prominence(x, 30) = 2;
+  Image<float> suppressed_response(382, 288);
+  fill_pixels(suppressed_response.view(), 0.0F);
+  for (int x = 0; x < suppressed_response.width(); ++x) {
+    suppressed_response(x, 10) = 2;
+    suppressed_response(x, 20) = 6;
+    suppressed_response(x, 30) = 2;
   }
   EdgeSet edges;
-  ASSERT_TRUE(Scorer({}).run(frame.linked, frame.corners, prominence, edges));
+  ASSERT_TRUE(Scorer({}).run(frame.linked, frame.corners, suppressed_response, edges));
   ASSERT_EQ(edges.edges.size(), 3U);
   EXPECT_EQ(start_of(edges, 0), (Pixel{10, 20}));
   EXPECT_EQ(start_of(edges, 1), (Pixel{10, 10}));
@@ -308,17 +308,17 @@ TEST(Scorer, ProminentAndLongEdgesComeFirstWhereProminenceIsGiven) {
   EXPECT_NEAR(edges.edges[0].es, 0, 1e-9);  // still told
 }
 
-// A bridge has no prominence of its own; it makes an edge longer, not weaker.
+// A bridge has no suppressed_response of its own; it makes an edge longer, not weaker.
 TEST(Scorer, PixelsWithoutProminenceCountForTheLengthOnly) {
-  Image<float> prominence(60, 20);
-  fill_pixels(prominence.view(), 0.0F);
+  Image<float> suppressed_response(60, 20);
+  fill_pixels(suppressed_response.view(), 0.0F);
   for (int x = 0; x < 20; ++x) {
-    prominence(x, 10) = 3;
+    suppressed_response(x, 10) = 3;
   }
   const auto pixels = straight({10, 10}, {29, 10});  // the first half has one
-  EXPECT_NEAR(prominence_score(pixels, prominence), std::log(3.0) + 0.25 * std::log(20.0), 1e-9);
-  fill_pixels(prominence.view(), 0.0F);
-  EXPECT_TRUE(std::isfinite(prominence_score(pixels, prominence)));
+  EXPECT_NEAR(saliency(pixels, suppressed_response), std::log(3.0) + 0.25 * std::log(20.0), 1e-9);
+  fill_pixels(suppressed_response.view(), 0.0F);
+  EXPECT_TRUE(std::isfinite(saliency(pixels, suppressed_response)));
 }
 
 TEST(Scorer, StrengthFallsWithTheRank) {
@@ -328,19 +328,20 @@ TEST(Scorer, StrengthFallsWithTheRank) {
   }
   const EdgeSet by_es = score(frame);
   for (std::size_t i = 0; i < 5; ++i) {
-    EXPECT_DOUBLE_EQ(by_es.edges[i].strength, 1 - static_cast<double>(i) / 4);
+    EXPECT_DOUBLE_EQ(by_es.edges[i].display_strength, 1 - static_cast<double>(i) / 4);
   }
-  Image<float> prominence(382, 288);
-  fill_pixels(prominence.view(), 0.0F);
+  Image<float> suppressed_response(382, 288);
+  fill_pixels(suppressed_response.view(), 0.0F);
   for (int i = 0; i < 5; ++i) {
-    std::fill_n(prominence.row(10 * i + 10), prominence.width(), static_cast<float>(i + 1));
+    std::fill_n(suppressed_response.row(10 * i + 10), suppressed_response.width(),
+                static_cast<float>(i + 1));
   }
-  EdgeSet by_prominence;
-  ASSERT_TRUE(Scorer({}).run(frame.linked, frame.corners, prominence, by_prominence));
+  EdgeSet by_saliency;
+  ASSERT_TRUE(Scorer({}).run(frame.linked, frame.corners, suppressed_response, by_saliency));
   for (std::size_t i = 1; i < 5; ++i) {
-    EXPECT_LT(by_prominence.edges[i].strength, by_prominence.edges[i - 1].strength);
+    EXPECT_LT(by_saliency.edges[i].display_strength, by_saliency.edges[i - 1].display_strength);
   }
-  EXPECT_LT(by_prominence.edges[0].strength, 1) << "a stronger one may come in another frame";
+  EXPECT_LT(by_saliency.edges[0].display_strength, 1) << "a stronger one may come in another frame";
 }
 
 TEST(Scorer, EdgelsFollowTheCurve) {

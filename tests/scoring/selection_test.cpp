@@ -14,13 +14,13 @@ EdgeSet four_edges(const std::vector<double>& log10_nfa, const std::vector<doubl
   EdgeSet set;
   for (std::size_t i = 0; i < 4; ++i) {
     Edge edge;
-    edge.id = edge.rank = static_cast<int>(i);
+    edge.index = edge.rank = static_cast<int>(i);
     edge.score = scores[i];
     edge.log10_nfa = log10_nfa[i];
     edge.edgels = {static_cast<std::uint32_t>(set.edgels.size()),
                    static_cast<std::uint32_t>(40 - 10 * i)};
     set.edgels.resize(set.edgels.size() + edge.edgels.count);
-    std::fill_n(set.edgels.edge.end() - edge.edgels.count, edge.edgels.count, edge.id);
+    std::fill_n(set.edgels.edge.end() - edge.edgels.count, edge.edgels.count, edge.index);
     if (i % 3 == 0) {
       edge.connections = {static_cast<std::uint32_t>(set.connections.size()), 1};
       set.connections.push_back(i == 0 ? 3 : 0);
@@ -45,7 +45,7 @@ TEST(EdgeSelector, BudgetOfEdges) {
   EXPECT_EQ(set.edges.size(), 4U);
   EXPECT_TRUE(set.edges[2].kept);
   EXPECT_FALSE(set.edges[3].kept);
-  EXPECT_EQ(set.edges[3].verdict, EdgeVerdict::kBeyondBudget);
+  EXPECT_EQ(set.edges[3].status, EdgeStatus::kBeyondBudget);
 }
 
 TEST(EdgeSelector, BudgetOfEdgels) {
@@ -61,16 +61,16 @@ TEST(EdgeSelector, BudgetOfEdgels) {
 TEST(EdgeSelector, StrengthFollowsTheNewOrder) {
   EdgeSet set = four_edges({-9, 0, -9, -9}, {4, 3, 2, 1});
   for (Edge& edge : set.edges) {
-    edge.strength = edge.score / 4;
+    edge.display_strength = edge.score / 4;
   }
   SelectionOptions options;
   options.max_false_alarms = 0.1;
   ASSERT_TRUE(EdgeSelector(options).run(set));
-  ASSERT_EQ(set.edges[3].verdict, EdgeVerdict::kInsignificant);
+  ASSERT_EQ(set.edges[3].status, EdgeStatus::kInsignificant);
   EXPECT_EQ(set.edges[3].score, 3);
-  EXPECT_EQ(set.edges[0].strength, 1);
-  EXPECT_EQ(set.edges[2].strength, 0.25);
-  EXPECT_EQ(set.edges[3].strength, 0.25);
+  EXPECT_EQ(set.edges[0].display_strength, 1);
+  EXPECT_EQ(set.edges[2].display_strength, 0.25);
+  EXPECT_EQ(set.edges[3].display_strength, 0.25);
 }
 
 TEST(EdgeSelector, EdgesThatFailGoBehindTheOthers) {
@@ -80,16 +80,16 @@ TEST(EdgeSelector, EdgesThatFailGoBehindTheOthers) {
   EdgeSet set = four_edges({-1, -5, -5, -5}, {4, 3, 2, 1});
   ASSERT_TRUE(EdgeSelector(options).run(set));
   EXPECT_EQ(set.kept, 2U);
-  const std::vector<EdgeVerdict> expected = {EdgeVerdict::kKept, EdgeVerdict::kKept,
-                                             EdgeVerdict::kInsignificant, EdgeVerdict::kWeak};
+  const std::vector<EdgeStatus> expected = {EdgeStatus::kKept, EdgeStatus::kKept,
+                                            EdgeStatus::kInsignificant, EdgeStatus::kWeak};
   const std::vector<double> scores = {3, 2, 4, 1};
   for (std::size_t i = 0; i < 4; ++i) {
     const Edge& edge = set.edges[i];
-    EXPECT_EQ(edge.verdict, expected[i]);
+    EXPECT_EQ(edge.status, expected[i]);
     EXPECT_EQ(edge.score, scores[i]);
     EXPECT_EQ(edge.rank, static_cast<int>(i));
     for (std::uint32_t k = 0; k < edge.edgels.count; ++k) {
-      EXPECT_EQ(set.edgels.edge[edge.edgels.first + k], edge.id);
+      EXPECT_EQ(set.edgels.edge[edge.edgels.first + k], edge.index);
     }
   }
   ASSERT_EQ(set.connections_of(set.edges[2]).size(), 1U);
@@ -103,7 +103,7 @@ TEST(EdgeSelector, KeepsTheJunctionsOfKeptEdges) {
   for (const Edge& edge : set.edges) {
     for (std::uint32_t k = 0; k < edge.edgels.count; ++k) {
       set.edgels.x[edge.edgels.first + k] = static_cast<float>(k);
-      set.edgels.y[edge.edgels.first + k] = static_cast<float>(2 * edge.id);
+      set.edgels.y[edge.edgels.first + k] = static_cast<float>(2 * edge.index);
     }
   }
   set.junctions = {{{5, 1}}, {{5, 5}}, {{35, 1}}};  // of edges 0 and 1, 2 and 3, 0 alone

@@ -29,16 +29,16 @@ EdgeSet one_edgel(float x, float y, double normal_degrees) {
 }
 
 Image<float> ridge(double normal_degrees, double offset) {
-  Image<float> strength(11, 11);
+  Image<float> response(11, 11);
   const double nx = std::cos(normal_degrees * std::numbers::pi / 180);
   const double ny = std::sin(normal_degrees * std::numbers::pi / 180);
   for (int y = 0; y < 11; ++y) {
     for (int x = 0; x < 11; ++x) {
       const double distance = nx * (x - 5) + ny * (y - 5) - offset;
-      strength(x, y) = static_cast<float>(20 * std::exp(-distance * distance / 5));
+      response(x, y) = static_cast<float>(20 * std::exp(-distance * distance / 5));
     }
   }
-  return strength;
+  return response;
 }
 
 TEST(RefinePositions, AreExactOnAGaussianRidge) {

@@ -77,7 +77,7 @@ TEST(Random, DeviatesAreNormalAndWhite) {
 }
 
 TEST(Sim, NoiseIsWhiteNormalAndAsStrongAsAskedFor) {
-  const auto frame = rendered("sim:desk?sigma=20&column_sigma=0&row_sigma=0&dead_pixels=0");
+  const auto frame = rendered("sim:desk?sigma=20&column_sigma=0&row_sigma=0&bad_pixels=0");
   const auto noise = [&](int x, int y) {
     return (static_cast<double>(frame.counts(x, y)) - double{frame.clean(x, y)}) / 20;
   };
@@ -105,7 +105,7 @@ TEST(Sim, NoiseIsWhiteNormalAndAsStrongAsAskedFor) {
 }
 
 TEST(Sim, FixedPatternStaysAndNoiseChanges) {
-  const std::string spec = "sim:desk?frames=2&sigma=0&column_sigma=30&row_sigma=20&dead_pixels=4";
+  const std::string spec = "sim:desk?frames=2&sigma=0&column_sigma=30&row_sigma=20&bad_pixels=4";
   const auto pattern = [](const TrueFrame& frame, int x, int y) {
     return std::lround(frame.counts(x, y) - frame.clean(x, y));
   };
@@ -122,7 +122,7 @@ TEST(Sim, DeadPixelsAreStuckAndAsManyAsAskedFor) {
   for (const int wanted : {0, 9, 250}) {
     for (const int seed : {1, 2, 3}) {
       const auto frame =
-          rendered("sim:corridor?width=16&height=16&dead_pixels=" + std::to_string(wanted) +
+          rendered("sim:corridor?width=16&height=16&bad_pixels=" + std::to_string(wanted) +
                    "&seed=" + std::to_string(seed));
       int lowest = 0;
       int highest = 0;
@@ -250,7 +250,7 @@ TEST(ParseScene, NamesWhatIsWrong) {
 TEST(ParseScene, ReadsEveryKey) {
   const auto options = parse_scene(
       "sim:corridor?seed=3&frames=20&width=64&height=48&blur=0.5&sigma=20&column_sigma=2&"
-      "row_sigma=3&dead_pixels=7");
+      "row_sigma=3&bad_pixels=7");
   ASSERT_TRUE(options) << options.error().message;
   EXPECT_EQ(options->name, "corridor");
   EXPECT_EQ(options->seed, 3U);
@@ -261,7 +261,7 @@ TEST(ParseScene, ReadsEveryKey) {
   EXPECT_EQ(options->camera.sigma_counts, 20);
   EXPECT_EQ(options->camera.column_sigma_counts, 2);
   EXPECT_EQ(options->camera.row_sigma_counts, 3);
-  EXPECT_EQ(options->camera.dead_pixels, 7);
+  EXPECT_EQ(options->camera.bad_pixels, 7);
 }
 
 TEST(ParseScene, AppliesTheCameraFirst) {

@@ -17,7 +17,7 @@ CameraOptions quiet_camera() {
   camera.sigma_counts = 0;
   camera.column_sigma_counts = 0;
   camera.row_sigma_counts = 0;
-  camera.dead_pixels = 0;
+  camera.bad_pixels = 0;
   return camera;
 }
 

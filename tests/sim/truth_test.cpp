@@ -1,4 +1,4 @@
-// Pictures and edges of the ray caster against closed forms, and against each other.
+// Pictures and edges of the ray ray_caster against closed forms, and against each other.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -160,7 +160,7 @@ TEST(Truth, EndsWhereSomethingHidesIt) {
                          facing(2, -0.25, -5, 0.3, 40), facing(2, -0.25, -0.4, 0.3, 40));
   for (const TrueEdge& edge : world.edges) {
     for (const Point p : edge.points) {
-      const Hit hit = world.caster().cast(Point{p.x, p.y});
+      const Hit hit = world.ray_caster().cast(Point{p.x, p.y});
       EXPECT_TRUE(edge.object != 0 || hit.facet <= 0) << p.x << " " << p.y;
     }
   }
@@ -304,7 +304,7 @@ TEST(Depth, IsAlongTheAxis) {
   const SmallWorld world(small_camera(), 20, facing(2.5, -5, -5, 5, 30));
   Image<std::uint16_t> depth(96, 72);
   const auto runner = make_runner(1);
-  render_depth(world.caster(), depth, *runner);
+  render_depth(world.ray_caster(), depth, *runner);
   EXPECT_EQ(depth(2, 70), 2500);
   EXPECT_EQ(depth(40, 40), 2500);
   EXPECT_EQ(depth(60, 40), 0);

@@ -33,7 +33,7 @@ TEST(World, ReadsEveryShape) {
           "round = true\nto_end = { temperature_degc = 50 }\n"
           "[[object]]\ntype = 'quad'\ncorner_m = [0, 9, 0]\nright_m = [1, 0, 0]\nup_m = [0, 0, 1]\n"
           "[[object]]\ntype = 'plane'\npoint_m = [0, 0, -1]\nnormal_m = [0, 0, 2]\n"
-          "gradient_degc_per_m = [0, 0.1, 0]\nmottle_degc = 0.5\nmottle_m = 2\n",
+          "gradient_degc_per_m = [0, 0.1, 0]\nvalue_noise_degc = 0.5\nvalue_noise_m = 2\n",
       "x.toml", 1);
   ASSERT_TRUE(world) << world.error().message;
   EXPECT_EQ(world->sky_degc, -5);
@@ -55,14 +55,14 @@ TEST(World, ReadsEveryShape) {
   EXPECT_EQ(cylinder.ends[1].temperature_degc, 50);
   EXPECT_EQ(std::get<Quad>(world->objects[3].shape).corner, (Vec3{0, 9, 0}));
   const Quad& plane = std::get<Quad>(world->objects[4].shape);
-  EXPECT_EQ(plane.surface.mottle_m, 2);
+  EXPECT_EQ(plane.surface.value_noise_m, 2);
   EXPECT_GT(std::abs(plane.u.x + plane.v.x), 1000);
 }
 
 TEST(World, SeedsMoveGroupsTogether) {
-  const auto toml = kView + kBall + "group = 'g'\nsway_m = [1, 0, 0]\nvary_degc = 5\n" +
+  const auto toml = kView + kBall + "group = 'g'\njitter_m = [1, 0, 0]\nvary_degc = 5\n" +
                     "[[object]]\ntype = 'sphere'\ncentre_m = [2, 3, 1]\nradius_m = 0.1\n"
-                    "group = 'g'\nsway_m = [1, 0, 0]\n";
+                    "group = 'g'\njitter_m = [1, 0, 0]\n";
   const auto centre = [](const World& world, std::size_t i) {
     return std::get<Sphere>(world.objects[i].shape).centre;
   };

@@ -66,7 +66,7 @@ inline void add_contour(ContourSet& set, const std::vector<Pixel>& pixels, bool 
   const Range range{static_cast<std::uint32_t>(set.points.size()),
                     static_cast<std::uint32_t>(pixels.size())};
   set.points.insert(set.points.end(), pixels.begin(), pixels.end());
-  set.contours.push_back({range, closed});
+  set.items.push_back({range, closed});
 }
 
 inline ContourSet contour_set(const std::vector<std::vector<Pixel>>& curves) {
@@ -78,7 +78,7 @@ inline ContourSet contour_set(const std::vector<std::vector<Pixel>>& curves) {
 }
 
 inline std::vector<Pixel> pixels_of(const ContourSet& set, std::size_t index) {
-  const auto pixels = set.pixels(set.contours[index]);
+  const auto pixels = set.pixels(set.items[index]);
   return {pixels.begin(), pixels.end()};
 }
 

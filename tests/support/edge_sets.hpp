@@ -15,8 +15,8 @@ inline Edge& add_edge(EdgeSet& set, const std::vector<std::pair<float, float>>& 
                       bool closed = false, bool kept = true) {
   Edgels& edgels = set.edgels;
   Edge edge;
-  edge.id = static_cast<std::int32_t>(set.edges.size());
-  edge.rank = edge.id;
+  edge.index = static_cast<std::int32_t>(set.edges.size());
+  edge.rank = edge.index;
   edge.closed = closed;
   edge.kept = kept;
   edge.edgels = {static_cast<std::uint32_t>(edgels.x.size()),
@@ -24,7 +24,7 @@ inline Edge& add_edge(EdgeSet& set, const std::vector<std::pair<float, float>>& 
   for (const auto& [x, y] : points) {
     edgels.x.push_back(x);
     edgels.y.push_back(y);
-    edgels.edge.push_back(edge.id);
+    edgels.edge.push_back(edge.index);
   }
   for (auto* values :
        {&edgels.nx, &edgels.ny, &edgels.magnitude_counts, &edgels.position_sigma_px}) {

@@ -12,10 +12,10 @@
 namespace thermedge::test {
 
 // Runs the tasks on one thread in a seeded random order.
-class ShuffledRunner final : public Runner {
+class ShuffledRunner final : public ParallelRunner {
  public:
   explicit ShuffledRunner(unsigned seed) : random_(seed) {}
-  void run(int count, TaskRef task) override {
+  void run(int count, FunctionRef task) override {
     std::vector<int> order(static_cast<std::size_t>(count));
     std::iota(order.begin(), order.end(), 0);
     std::shuffle(order.begin(), order.end(), random_);
@@ -30,8 +30,8 @@ class ShuffledRunner final : public Runner {
 };
 
 // The runners under which a parallel stage must give the same bits: 1, 2 and 5 threads, shuffled.
-inline std::vector<std::unique_ptr<Runner>> all_runners() {
-  std::vector<std::unique_ptr<Runner>> runners;
+inline std::vector<std::unique_ptr<ParallelRunner>> all_runners() {
+  std::vector<std::unique_ptr<ParallelRunner>> runners;
   for (const int threads : {1, 2, 5}) {
     runners.push_back(make_runner(threads));
   }

@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "caster.hpp"
 #include "imager.hpp"
+#include "ray_caster.hpp"
 #include "truth.hpp"
 
 namespace thermedge::test {
@@ -44,16 +44,16 @@ class SmallWorld {
       : lens_(sim::intrinsics_of(camera)), imager_(lens_, camera), runner_(make_runner(1)) {
     world_.sky_degc = sky_degc;
     (world_.objects.push_back({"", std::move(shapes)}), ...);
-    facets_ = sim::take_apart(world_);
-    caster_ = std::make_unique<sim::Caster>(world_, facets_, lens_, imager_.margin_px());
-    caster_->look(sim::pose_of({}, sim::upright({0, 1, 0})), *runner_);
+    facets_ = sim::tessellate(world_);
+    ray_caster_ = std::make_unique<sim::RayCaster>(world_, facets_, lens_, imager_.margin_px());
+    ray_caster_->set_pose(sim::pose_of({}, sim::upright({0, 1, 0})), *runner_);
     clean.resize(camera.width, camera.height);
-    imager_.run(*caster_, clean, *runner_);
-    edges = sim::true_edges(*caster_, 1, camera.vignetting, *runner_);
+    imager_.run(*ray_caster_, clean, *runner_);
+    edges = sim::true_edges(*ray_caster_, 1, camera.vignetting, *runner_);
   }
 
   [[nodiscard]] const sim::Lens& lens() const { return lens_; }
-  [[nodiscard]] const sim::Caster& caster() const { return *caster_; }
+  [[nodiscard]] const sim::RayCaster& ray_caster() const { return *ray_caster_; }
   // Metres at `depth_m` from the axis to a column of the picture, without distortion.
   [[nodiscard]] static double metres(const sim::CameraOptions& camera, double column,
                                      double depth_m) {
@@ -69,8 +69,8 @@ class SmallWorld {
   sim::Facets facets_;
   sim::Lens lens_;
   sim::Imager imager_;
-  std::unique_ptr<Runner> runner_;
-  std::unique_ptr<sim::Caster> caster_;
+  std::unique_ptr<ParallelRunner> runner_;
+  std::unique_ptr<sim::RayCaster> ray_caster_;
 };
 
 // Where a row of the picture crosses `level` upwards from column `x` on, between pixels.

@@ -19,7 +19,7 @@ namespace thermedge {
 struct ProbeOptions {
   double degc_per_count = kDegcPerCount;  // worth of a count, degC, > 0 (paper section 2.3)
   std::optional<CountsModel> camera;      // instead of it, where known: tells temperatures too
-  NucOptions nuc;                         // the rule for dead pixels
+  BadPixelOptions nuc;                    // the rule for dead pixels
 };
 
 // Counts of all frames: bin i holds the pixels with edges_counts[i] <= count < edges_counts[i + 1].
@@ -110,8 +110,8 @@ struct RecordingReport {
   std::vector<double> column_profile_counts, row_profile_counts;
 
   // Dead pixels: flagged in at least half of 3 or more different frames; and others, per frame.
-  std::optional<std::int64_t> dead_pixels;
-  double passing_dead_pixels = 0;
+  std::optional<std::int64_t> bad_pixels;
+  double passing_bad_pixels = 0;
 
   std::vector<GainClipping> clipping;  // by falling gain
 

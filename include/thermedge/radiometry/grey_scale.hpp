@@ -11,7 +11,7 @@ namespace thermedge {
 // Linear response of the paper's camera, degC per count (paper section 2.3).
 inline constexpr double kDegcPerCount = 0.01;
 
-struct ScaleOptions {
+struct GreyScaleOptions {
   double gain = 0.5;  // grey levels per count, > 0; 0.5 = 0.02 degC a level (paper Algorithm 1)
 };
 
@@ -24,7 +24,7 @@ struct ScaleOptions {
 // gives no rule; it also writes I for M). `levels` has the frame's size.
 // Errors: sizes differ; gain not finite or <= 0. Thread-safe.
 [[nodiscard]] Status scale_to_8bit(ImageView<const std::uint16_t> frame,
-                                   const ScaleOptions& options, ImageView<std::uint8_t> levels);
+                                   const GreyScaleOptions& options, ImageView<std::uint8_t> levels);
 
 struct CountRange {
   int min = 0;  // counts

@@ -9,7 +9,7 @@
 
 namespace thermedge {
 
-struct StableViewOptions {
+struct StableGreyScaleOptions {
   // Grey levels per count, 0..1000; 0: chosen on the first frame so that one level is half of
   // its noise. Stays the same over the sequence, so that a level is always worth the same.
   double gain = 0.2;
@@ -24,32 +24,33 @@ struct StableViewOptions {
   int cut_frames = 3;
 };
 
-enum class ViewEvent { kNone, kStart, kSceneCut };
+enum class GreyScaleEvent { kNone, kStart, kSceneCut };
 
 // How the counts of a frame became levels: level = clamp(round(counts * gain + offset), 0, 255).
-struct ViewState {
+struct GreyScaleState {
   double gain = 0;                                       // levels per count
   double offset = 0;                                     // levels
   double clipped_low_share = 0, clipped_high_share = 0;  // of the pixels, 0..1
-  ViewEvent event = ViewEvent::kNone;  // kStart: first frame; kSceneCut: the view jumped here
+  GreyScaleEvent event =
+      GreyScaleEvent::kNone;  // kStart: first frame; kSceneCut: the view jumped here
 };
 
 // Fails on the first option out of range.
-[[nodiscard]] Status check_options(const StableViewOptions& options);
+[[nodiscard]] Status check_options(const StableGreyScaleOptions& options);
 
 // Algorithm 1 with a centre that is held: level 127 is the median of the first frame until that of
 // later frames leaves the dead band. Source: measured against Algorithm 1, whose centre follows the
 // median of each frame, so that the level of a fixed count changes by half a level a frame.
 // One object per sequence and thread. Halves round away from zero; the same result for every SIMD
 // target. Allocates on the first frame of a size only. Cost: about 0.3 ms for 382x288.
-class StableView {
+class StableGreyScale {
  public:
-  explicit StableView(const StableViewOptions& options = {}) : options_(options) {}
+  explicit StableGreyScale(const StableGreyScaleOptions& options = {}) : options_(options) {}
 
   // The next frame of the sequence -> `levels`, same size. Frames may change their size.
   // Errors, which leave the view as it was: sizes differ, empty frame, an option out of range.
-  [[nodiscard]] Result<ViewState> run(ImageView<const std::uint16_t> frame,
-                                      ImageView<std::uint8_t> levels);
+  [[nodiscard]] Result<GreyScaleState> run(ImageView<const std::uint16_t> frame,
+                                           ImageView<std::uint8_t> levels);
 
  private:
   struct Clipped {
@@ -59,10 +60,10 @@ class StableView {
 
   [[nodiscard]] Clipped clipped(ImageView<const std::uint16_t> frame, int anchor_counts,
                                 double base_level) const;
-  ViewEvent place(ImageView<const std::uint16_t> frame);
+  GreyScaleEvent place(ImageView<const std::uint16_t> frame);
   void follow(int median_counts);
 
-  StableViewOptions options_;
+  StableGreyScaleOptions options_;
   NoiseEstimator noise_;
   double gain_ = 0;        // 0: before the first frame
   int anchor_counts_ = 0;  // is shown at base_level_

@@ -8,30 +8,30 @@
 
 namespace thermedge {
 
-struct NucOptions {
-  bool dead_pixels = true;  // replace dead pixels by the median of their good neighbours
+struct BadPixelOptions {
+  bool bad_pixels = true;  // replace dead pixels by the median of their good neighbours
   // How far a pixel must lie outside the range of its neighbours to count as dead, in units of the
   // noise, > 0. Smaller finds weaker ones and, below about 4, takes noise for dead pixels.
-  double dead_pixel_sigmas = 6;
+  double threshold_sigmas = 6;
   bool stripes = false;  // remove the fixed offsets of columns and rows (stripes.hpp)
 };
 
-struct DeadPixel {
+struct BadPixel {
   int x = 0;
   int y = 0;
-  friend bool operator==(const DeadPixel&, const DeadPixel&) = default;
+  friend bool operator==(const BadPixel&, const BadPixel&) = default;
 };
 
 // Finds dead pixels and replaces them in place by the median of the good pixels of their 3x3 (where
 // none is good: 5x5) neighbourhood. Returns them in row order in `dead`, which is cleared first.
-// A pixel is dead where it lies `dead_pixel_sigmas` outside the range of its eight neighbours, of
+// A pixel is dead where it lies `threshold_sigmas` outside the range of its eight neighbours, of
 // which the most extreme one is left out, because dead pixels come in pairs; and where it lies
 // farther outside than optics allow: these spread a real point over its neighbours, so it can't
 // stand out of them by more than twice what they stand out of the pixels around them (blur of 0.7
 // px and more). So a dead pixel beside a strong edge is found only when it is off by twice the
 // contrast. `sigma_counts` as measured; below 1 count it is taken as 1. Frames under 5 px a side
 // are left as they are. Thread-safe. Cost: about 0.1 ms for 382x288.
-void correct_dead_pixels(ImageView<std::uint16_t> frame, double sigma_counts,
-                         const NucOptions& options, std::vector<DeadPixel>& dead);
+void replace_bad_pixels(ImageView<std::uint16_t> frame, double sigma_counts,
+                        const BadPixelOptions& options, std::vector<BadPixel>& dead);
 
 }  // namespace thermedge

@@ -38,15 +38,15 @@ struct CannyResult {
 // survives suppression when its magnitude is > the neighbour before it and >= the one behind it, in
 // reading order, so that a plateau two pixels wide leaves one. Edges are above the thresholds, not
 // at them, so a constant frame has none. Border pixels are never edges. The result is bit-identical
-// for every Runner and SIMD target. One object per thread; allocates on the first frame of a size
-// only. Cost on one thread at 382x288: about 0.2 ms, 0.6 ms where noise makes every fourth pixel an
-// edge.
+// for every ParallelRunner and SIMD target. One object per thread; allocates on the first frame of
+// a size only. Cost on one thread at 382x288: about 0.2 ms, 0.6 ms where noise makes every fourth
+// pixel an edge.
 class Canny {
  public:
   explicit Canny(const CannyOptions& options) : options_(options) {}
 
   // Errors: empty frame, option out of range, a pixel that is NaN, infinite or beyond 1e18.
-  [[nodiscard]] Result<CannyResult> run(ImageView<const float> in, Runner& runner);
+  [[nodiscard]] Result<CannyResult> run(ImageView<const float> in, ParallelRunner& runner);
 
  private:
   static constexpr int kBins = 64;
@@ -61,10 +61,10 @@ class Canny {
 
   void prepare(int width, int height);
   template <class F>
-  void for_each_band(Runner& runner, F&& task);
+  void for_each_band(ParallelRunner& runner, F&& task);
   void add_border(ImageView<const float> in, int y_begin, int y_end);
   float find_gradients(int y_begin, int y_end);
-  Thresholds choose_thresholds(float largest_magnitude, Runner& runner);
+  Thresholds choose_thresholds(float largest_magnitude, ParallelRunner& runner);
   void suppress(int y_begin, int y_end, Thresholds thresholds);
 
   CannyOptions options_;

@@ -53,8 +53,8 @@ struct ClassicalOptions {
 // LoG: a pixel that has a neighbour < 0 beside, above or below it is an edge where its LoG is above
 // 0.75 times the mean of |LoG|. Canny: a Gaussian of sigma sqrt(2), then class Canny, whose rule
 // for the thresholds is MATLAB's. One object per thread; allocates on the first frame of a size
-// only. The result is bit-identical for every Runner and SIMD target. Cost at 382x288 on one
-// thread: 0.2 to 0.3 ms, LoG 2.5 ms.
+// only. The result is bit-identical for every ParallelRunner and SIMD target. Cost at 382x288 on
+// one thread: 0.2 to 0.3 ms, LoG 2.5 ms.
 class ClassicalDetector {
  public:
   explicit ClassicalDetector(const ClassicalOptions& options = {});
@@ -62,7 +62,7 @@ class ClassicalDetector {
   // `levels` -> `edges` (255 edge, 0 none), same size. Errors: empty frame, sizes differ, an option
   // out of range, a pixel that is NaN, infinite or beyond 1e9.
   [[nodiscard]] Status run(ImageView<const float> levels, ClassicalMethod method,
-                           ImageView<std::uint8_t> edges, Runner& runner);
+                           ImageView<std::uint8_t> edges, ParallelRunner& runner);
 
  private:
   void add_border(ImageView<const float> levels, int margin, bool zeros);
@@ -72,7 +72,7 @@ class ClassicalDetector {
   void filter_separably(const std::vector<double>& along_rows,
                         const std::vector<double>& along_columns);
   Status detect_by_canny(ImageView<const float> levels, ImageView<std::uint8_t> edges,
-                         Runner& runner);
+                         ParallelRunner& runner);
 
   ClassicalOptions options_;
   Denoiser smoother_;

@@ -22,7 +22,7 @@ struct Contour {
 // frame of this size can hold, as the bound for their own memory.
 struct ContourSet {
   std::vector<Pixel> points;
-  std::vector<Contour> contours;
+  std::vector<Contour> items;
   std::vector<Junction> junctions;
 
   [[nodiscard]] std::span<const Pixel> pixels(const Contour& contour) const {

@@ -36,10 +36,10 @@ struct Bm3dOptions {
   bool wiener = true;        // run stage 2 (costs as much as stage 1, gives 0.3 to 0.6 dB)
 };
 
-// A bilateral filter behind the method, far weaker than the noise: it evens out the ripple that
+// A bilateral filter behind the method, far weaker than the noise: it evens out the bilateral that
 // block matching leaves in flat areas, and nothing else. Rows first, then columns (Pham & van Vliet
 // 2005).
-struct RippleOptions {
+struct BilateralOptions {
   double range_sigmas = 0;  // differences evened out, in units of the noise; 0: off
   double space_px = 6;      // standard deviation of the weights over distance, 1..10
 };
@@ -47,13 +47,13 @@ struct RippleOptions {
 struct DenoiseOptions {
   DenoiseMethod method = DenoiseMethod::kBm3d;
   double sigma_counts = 0;  // noise told to nlm and bm3d, in counts; 0: as measured on the frame
-  double strength = 1;      // nlm and bm3d are told so many times the noise
-  bool shading = false;     // the smooth background is taken off before and put back after, so that
+  double sigma_scale = 1;   // nlm and bm3d are told so many times the noise
+  bool detrend = false;     // the smooth background is taken off before and put back after, so that
                             // no terraces are made of it
   GaussianOptions gaussian;
   NlmOptions nlm;
   Bm3dOptions bm3d;
-  RippleOptions ripple;
+  BilateralOptions bilateral;
 };
 
 // To the nearest whole counts, within 0..65535. `out` has the size of `in`. Thread-safe.
@@ -61,7 +61,7 @@ void round_to_counts(ImageView<const float> in, ImageView<std::uint16_t> out);
 
 // Runs the chosen method. Holds the scratch memory of a frame size: after the second frame of one
 // size nothing is allocated. One Denoiser per thread; the work is spread over `runner`.
-// The result is bit-identical for every Runner and SIMD target.
+// The result is bit-identical for every ParallelRunner and SIMD target.
 class Denoiser {
  public:
   explicit Denoiser(const DenoiseOptions& options);
@@ -75,14 +75,14 @@ class Denoiser {
   // bm3d, sigma not positive and finite; for bm3d, a side under 8 px; out of memory. A sigma below
   // 1e-15 of the frame's range copies the frame.
   [[nodiscard]] Status run(ImageView<const float> in, double sigma, ImageView<float> out,
-                           Runner& runner);
+                           ParallelRunner& runner);
 
   // The same for the `sigma` that NoiseEstimator measured: where it found none, which it says with
   // 0, there is nothing to remove and the frame is copied. `burden`, 0 to 1, says how much
-  // of one the noise is: so large a share of options.ripple.range_sigmas and of the Gaussian's
+  // of one the noise is: so large a share of options.bilateral.range_sigmas and of the Gaussian's
   // standard deviation is applied.
   [[nodiscard]] Status run_measured(ImageView<const float> in, double sigma, ImageView<float> out,
-                                    Runner& runner, double burden = 1);
+                                    ParallelRunner& runner, double burden = 1);
 
  private:
   struct Impl;

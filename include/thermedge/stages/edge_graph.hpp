@@ -24,18 +24,18 @@ struct GraphOptions {
 // junctions into segments; joins at each junction the two that go on most smoothly, and of the
 // others again, as long as they turn no more than max_turn_deg. The directions of segments are
 // those of their last 8 pixels. Closed curves have no ends. What the curves are does not depend on
-// the order in which pixels are visited, except for ties of strength: the flipped or transposed map
+// the order in which pixels are visited, except for ties of response: the flipped or transposed map
 // gives the flipped or transposed curves.
 // One object per thread; allocates on the first frame of a size only.
 class GraphTracer {
  public:
   explicit GraphTracer(const GraphOptions& options) : options_(options) {}
 
-  // `edges`: nonzero = edge; `strength`, of the same size: which of two pixels side by side stays.
+  // `edges`: nonzero = edge; `response`, of the same size: which of two pixels side by side stays.
   // `curves` is cleared first; its links are of type kEndToMiddle, its junctions the pixels where
   // three or more segments meet. Curves share junction pixels.
   // Errors: an option out of range; sizes that differ; a frame of more than 2^30 pixels.
-  [[nodiscard]] Status run(ImageView<const std::uint8_t> edges, ImageView<const float> strength,
+  [[nodiscard]] Status run(ImageView<const std::uint8_t> edges, ImageView<const float> response,
                            LinkedContours& curves);
 
  private:
@@ -53,11 +53,11 @@ class GraphTracer {
   void prepare(ImageView<const std::uint8_t> edges, LinkedContours& curves);
   // A pixel that may be taken off.
   struct Candidate {
-    float strength;
+    float response;
     std::int32_t pixel;
   };
 
-  void thin(ImageView<const float> strength);
+  void thin(ImageView<const float> response);
   void take_off_candidates();
   void find_neighbours();
   void find_junctions();

@@ -14,10 +14,11 @@
 
 namespace thermedge {
 
-struct BridgingOptions {
-  double gap_px = 10;           // longest bridge, 0..32 px; 0: none
-  double max_turn_deg = 45;     // sharpest turn into a bridge and out of it, 0..90
-  double least_contrast = 0.1;  // contrast across a bridge, of that across the curve's end, 0..1
+struct GapClosingOptions {
+  double gap_px = 10;        // longest bridge, 0..32 px; 0: none
+  double max_turn_deg = 45;  // sharpest turn into a bridge and out of it, 0..90
+  double min_contrast_ratio =
+      0.1;  // contrast across a bridge, of that across the curve's end, 0..1
 };
 
 // Where an edge meets a stronger one, the ridge of its gradient ends some pixels before, and a weak
@@ -27,15 +28,15 @@ struct BridgingOptions {
 // become one curve, straight on or by way of the corner that both head for, but not by a kink; ends
 // that meet a curve become a link of type 2.
 // One object per thread; allocates on the first frame of a size only.
-class Bridger {
+class GapCloser {
  public:
-  explicit Bridger(const BridgingOptions& options) : options_(options) {}
+  explicit GapCloser(const GapClosingOptions& options) : options_(options) {}
 
-  // `frame`: what the edges were found on. `worthy`, one for each curve: 0 where it is not worth a
-  // bridge. `bridged` is cleared first; links of type 2 go over into it.
-  // Errors: an option out of range.
+  // `frame`: what the edges were found on. `eligible`, one for each curve: 0 where it is not worth
+  // a bridge. `bridged` is cleared first; links of type 2 go over into it. Errors: an option out of
+  // range.
   [[nodiscard]] Status run(const LinkedContours& curves, ImageView<const float> frame,
-                           std::span<const std::uint8_t> worthy, LinkedContours& bridged);
+                           std::span<const std::uint8_t> eligible, LinkedContours& bridged);
 
  private:
   struct Vector {
@@ -63,7 +64,7 @@ class Bridger {
   };
 
   void prepare(const LinkedContours& curves, ImageView<const float> frame, LinkedContours& bridged);
-  void paint(const LinkedContours& curves, std::span<const std::uint8_t> worthy);
+  void paint(const LinkedContours& curves, std::span<const std::uint8_t> eligible);
   [[nodiscard]] bool touches_another(std::int32_t end, Pixel at) const;
   [[nodiscard]] Tip tip_of(const ContourSet& contours, std::int32_t end,
                            ImageView<const float> frame) const;
@@ -80,7 +81,7 @@ class Bridger {
   [[nodiscard]] bool is_own(std::int32_t end, Pixel at) const;
   void join(const ContourSet& contours, LinkedContours& bridged);
 
-  BridgingOptions options_;
+  GapClosingOptions options_;
   detail::CurveChains chains_;
   std::vector<Pixel> window_;    // offsets within gap_px, nearest first
   std::vector<Offset> offsets_;  // the same

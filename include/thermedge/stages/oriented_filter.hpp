@@ -10,7 +10,7 @@
 
 namespace thermedge {
 
-struct OrientedOptions {
+struct OrientedFilterOptions {
   double across_px = 1.2;        // standard deviation of the kernels across the edge, 0.5..2,
   double along_px = 2.5;         // and along it, from across_px to 4, in strong noise;
   double clean_across_px = 0.8;  // and the same in next to none
@@ -29,41 +29,41 @@ struct KernelSize {
 };
 
 // Of one frame; the views live in the object that made them, until its next run.
-struct OrientedResult {
-  ImageView<const float> strength;          // largest response of all orientations, in sigma
+struct OrientedFilterResult {
+  ImageView<const float> response;          // largest response of all orientations, in sigma
   ImageView<const std::int32_t> direction;  // whose, 0..23: the edge runs at direction * 15
                                             // degrees from the x axis towards the y axis, and the
                                             // warmer side lies 90 degrees further on
-  ImageView<const float> prominence;        // of edge pixels: strength over that of what lies
-                                            // 4 px to both sides; slopes have next to none
-  ImageView<const std::uint8_t> edges;      // 255 edge, 0 none
-  KernelSize kernel;                        // that found them
+  ImageView<const float> suppressed_response;  // of edge pixels: response over that of what lies
+                                               // 4 px to both sides; slopes have next to none
+  ImageView<const std::uint8_t> edges;         // 255 edge, 0 none
+  KernelSize kernel;                           // that found them
 };
 
 // Derivatives of a Gaussian that is longer than it is wide, at 12 orientations (what runs along an
 // edge tells as much of it as what lies across, and noise less), scaled so that white noise of 1
-// sigma gives responses of 1 sigma. The strength of a pixel is that of its best orientation. An
-// edge pixel is not weaker than the strength interpolated one pixel to both sides across the edge.
+// sigma gives responses of 1 sigma. The response of a pixel is that of its best orientation. An
+// edge pixel is not weaker than the response interpolated one pixel to both sides across the edge.
 // Hysteresis with 8-connectivity.
 // The kernels blur. Edges that a fine, round derivative of a Gaussian sees too, in groups of some
 // pixels, lie where that one has them: sharp corners, lines side by side. Both of Canny's design.
 // Border pixels are no edges; beyond the border the frame is mirrored.
-// Bit-identical for every Runner and SIMD target. One object per thread; allocates on the first
-// frame of a size only.
-class OrientedEdges {
+// Bit-identical for every ParallelRunner and SIMD target. One object per thread; allocates on the
+// first frame of a size only.
+class OrientedFilterBank {
  public:
-  explicit OrientedEdges(const OrientedOptions& options);
-  OrientedEdges(OrientedEdges&&) noexcept;
-  OrientedEdges& operator=(OrientedEdges&&) noexcept;
-  ~OrientedEdges();
+  explicit OrientedFilterBank(const OrientedFilterOptions& options);
+  OrientedFilterBank(OrientedFilterBank&&) noexcept;
+  OrientedFilterBank& operator=(OrientedFilterBank&&) noexcept;
+  ~OrientedFilterBank();
 
   // `in`: counts, denoised or not; `sigma_counts` > 0: the noise before denoising; `noisiness`: how
   // much of a burden it is, 0 (the short clean kernels) to 1 (the long ones). From a half up, the
   // sides that an edge has to be over may lie 8 px away too: denoisers blur faint edges.
   // Errors: empty frame; sigma not positive or not finite; noisiness out of range; an option out of
   // range; a pixel that is NaN, infinite or beyond 1e18.
-  [[nodiscard]] Result<OrientedResult> run(ImageView<const float> in, double sigma_counts,
-                                           double noisiness, Runner& runner);
+  [[nodiscard]] Result<OrientedFilterResult> run(ImageView<const float> in, double sigma_counts,
+                                                 double noisiness, ParallelRunner& runner);
 
  private:
   struct Impl;

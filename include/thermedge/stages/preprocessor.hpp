@@ -13,23 +13,23 @@ namespace thermedge {
 
 // Replaces dead pixels, then removes stripes, as the options say. One object per thread; allocates
 // on the first frame of a size only.
-class FrameCorrector {
+class Preprocessor {
  public:
-  explicit FrameCorrector(const NucOptions& options) : options_(options) {}
+  explicit Preprocessor(const BadPixelOptions& options) : options_(options) {}
 
   // The corrected frame, valid until the next run. `sigma_counts` as NoiseEstimator measured it.
   ImageView<const std::uint16_t> run(ImageView<const std::uint16_t> frame, double sigma_counts,
-                                     Runner& runner);
+                                     ParallelRunner& runner);
 
   // Of the last frame; without stripes, or where they are left alone, the offsets are empty.
-  [[nodiscard]] const std::vector<DeadPixel>& dead_pixels() const { return dead_pixels_; }
+  [[nodiscard]] const std::vector<BadPixel>& bad_pixels() const { return bad_pixels_; }
   [[nodiscard]] const StripeOffsets& stripes() const { return stripes_; }
 
  private:
-  NucOptions options_;
+  BadPixelOptions options_;
   StripeFinder finder_;
   Image<std::uint16_t> corrected_;
-  std::vector<DeadPixel> dead_pixels_;
+  std::vector<BadPixel> bad_pixels_;
   StripeOffsets stripes_;
 };
 

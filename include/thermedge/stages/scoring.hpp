@@ -37,21 +37,21 @@ struct EdgeScoreTerms {
 // ES = AR W L M^2 / (N^2 N' Phi) (eq. 18): smaller is smoother, longer, better connected.
 [[nodiscard]] double edge_score(const EdgeScoreTerms& terms);
 
-// log(mean prominence) + 0.25 log N of a curve, the mean over the pixels that have one (above 0).
-[[nodiscard]] double prominence_score(std::span<const Pixel> pixels,
-                                      ImageView<const float> prominence);
+// log(mean suppressed_response) + 0.25 log N of a curve, the mean over the pixels that have one
+// (above 0).
+[[nodiscard]] double saliency(std::span<const Pixel> pixels,
+                              ImageView<const float> suppressed_response);
 
 // Scores and ranks: fills `edges` from linked contours and their corners, best first. Ties: the
 // edge with more points, then the earlier contour. The id of an edge is its rank. Everything but
 // the measured fields (normals, magnitude, contrast, z, NFA; measure.hpp) and what is kept
 // (selection.hpp) is set.
-// The score is ES, or, given the prominence of edge pixels in units of the noise, log(mean
-// prominence) + 0.25 log N: larger is better then. Contrast counts more than length, and smoothness
-// not at all: ES prefers edges along the axis of the abscissae, and short ones.
-// Parts to be fitted run from corner to corner; the first and the last point of a curve, closed or
-// not, always count as corners here (P1 = C1, PN = CM), so that M >= 2.
-// Paper: section 4, Algorithm 6. One object per thread; allocates on the first frame of a size
-// only.
+// The score is ES, or, given the suppressed_response of edge pixels in units of the noise, log(mean
+// suppressed_response) + 0.25 log N: larger is better then. Contrast counts more than length, and
+// smoothness not at all: ES prefers edges along the axis of the abscissae, and short ones. Parts to
+// be fitted run from corner to corner; the first and the last point of a curve, closed or not,
+// always count as corners here (P1 = C1, PN = CM), so that M >= 2. Paper: section 4, Algorithm 6.
+// One object per thread; allocates on the first frame of a size only.
 class Scorer {
  public:
   explicit Scorer(const ScoringOptions& options) : options_(options) {}
@@ -61,7 +61,7 @@ class Scorer {
   [[nodiscard]] Status run(const LinkedContours& linked, const CornerSet& corners, int width,
                            int height, EdgeSet& edges);
   [[nodiscard]] Status run(const LinkedContours& linked, const CornerSet& corners,
-                           ImageView<const float> prominence, EdgeSet& edges);
+                           ImageView<const float> suppressed_response, EdgeSet& edges);
 
  private:
   struct Ranked {
@@ -83,7 +83,7 @@ class Scorer {
   void collect_connections(const LinkedContours& linked);
   [[nodiscard]] Status score_contours(const LinkedContours& linked, const CornerSet& corners,
                                       double frame_width, double frame_height, EdgeSet& edges);
-  void score_by_prominence(const ContourSet& contours, ImageView<const float> prominence);
+  void score_by_saliency(const ContourSet& contours, ImageView<const float> suppressed_response);
   void fill(const LinkedContours& linked, const CornerSet& corners, EdgeSet& edges);
   void rank_contours();
   void append_edge(const LinkedContours& linked, const CornerSet& corners, std::size_t rank,

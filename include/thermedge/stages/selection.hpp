@@ -17,7 +17,7 @@ struct SelectionOptions {
   double max_false_alarms = 0;  // edges with a larger number of false alarms go; 0: no such test
 };
 
-// Gives each edge its verdict: too weak, not significant, beyond a budget (the kept edges are the
+// Gives each edge its status: too weak, not significant, beyond a budget (the kept edges are the
 // longest row of best ones within both) or kept. Those that passed the tests come first, each part
 // in the order of its rank before; ids, ranks, connections and the edges of edgels follow.
 // Paper: Algorithm 6 (ET). One object per thread; allocates on the first frame of a size only.
@@ -33,7 +33,7 @@ class EdgeSelector {
   void keep_junctions(int width, int height, EdgeSet& edges);
 
  private:
-  [[nodiscard]] EdgeVerdict judge(const Edge& edge) const;
+  [[nodiscard]] EdgeStatus judge(const Edge& edge) const;
   void reorder(EdgeSet& edges);
   void keep_best(EdgeSet& edges) const;
 

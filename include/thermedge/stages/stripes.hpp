@@ -27,7 +27,7 @@ struct StripeOffsets {
 // its contrast over 40 % of the height and 0.85 over all of it, or more (means); stripes of 0.06
 // sigma are left where the scene is open, of 0.1 sigma where it is crowded (pixel noise alone makes
 // that 0.06). One object per thread; allocates on the first frame of a size only. The same result
-// for every Runner and SIMD target.
+// for every ParallelRunner and SIMD target.
 class StripeFinder {
  public:
   StripeFinder();
@@ -37,7 +37,7 @@ class StripeFinder {
 
   // `frame` without dead pixels, `sigma_counts` its pixel noise, as NoiseEstimator measures it.
   // Sides under 64 px along or across give no offsets, nor does a sigma of 0.
-  void measure(ImageView<const std::uint16_t> frame, double sigma_counts, Runner& runner,
+  void measure(ImageView<const std::uint16_t> frame, double sigma_counts, ParallelRunner& runner,
                StripeOffsets& offsets);
 
  private:

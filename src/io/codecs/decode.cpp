@@ -12,45 +12,45 @@ namespace thermedge::io {
 
 Status decode_picture(std::span<const std::byte> bytes, const std::string& name,
                       const Limits& limits, std::size_t page, Frame& frame) {
-  return without_throwing(name, [&]() -> Status {
+  return catch_bad_alloc(name, [&]() -> Status {
     const EncodedFile file{bytes, name, limits};
-    switch (kind_of(bytes)) {
-      case Kind::kPng:
+    switch (format_of(bytes)) {
+      case FileFormat::kPng:
         return page == 0 ? decode_png(file, frame) : no_such_page(file, page);
-      case Kind::kPgm:
+      case FileFormat::kPgm:
         return page == 0 ? decode_pgm(file, frame) : no_such_page(file, page);
-      case Kind::kTiff:
+      case FileFormat::kTiff:
         return decode_tiff(file, page, frame);
-      case Kind::kNpy:
+      case FileFormat::kNpy:
         return decode_npy(file, page, frame);
-      case Kind::kUnknown:
+      case FileFormat::kUnknown:
         break;
     }
-    return tl::unexpected(unknown_kind(bytes, name));
+    return tl::unexpected(unknown_format(bytes, name));
   });
 }
 
 Result<std::size_t> count_pages(std::span<const std::byte> bytes, const std::string& name,
                                 const Limits& limits) {
-  return without_throwing(name, [&]() -> Result<std::size_t> {
+  return catch_bad_alloc(name, [&]() -> Result<std::size_t> {
     const EncodedFile file{bytes, name, limits};
-    switch (kind_of(bytes)) {
-      case Kind::kTiff:
+    switch (format_of(bytes)) {
+      case FileFormat::kTiff:
         return count_tiff_pages(file);
-      case Kind::kNpy:
+      case FileFormat::kNpy:
         return count_npy_pages(file);
-      case Kind::kPng:
-      case Kind::kPgm:
+      case FileFormat::kPng:
+      case FileFormat::kPgm:
         return 1;
-      case Kind::kUnknown:
+      case FileFormat::kUnknown:
         break;
     }
-    return tl::unexpected(unknown_kind(bytes, name));
+    return tl::unexpected(unknown_format(bytes, name));
   });
 }
 
 Result<Frame> read_picture(const std::string& path, const Limits& limits) {
-  return without_throwing(path, [&] {
+  return catch_bad_alloc(path, [&] {
     return read_file(path, limits).and_then([&](const std::vector<std::byte>& bytes) {
       Frame frame;
       frame.source = path;

@@ -11,15 +11,15 @@ using namespace std::string_view_literals;
 
 struct Magic {
   std::string_view bytes;
-  Kind kind;
+  FileFormat kind;
 };
 constexpr std::array kMagics = {
-    Magic{"\x89PNG\r\n\x1a\n"sv, Kind::kPng},
-    Magic{"II*\0"sv, Kind::kTiff},
-    Magic{"MM\0*"sv, Kind::kTiff},
-    Magic{"II+\0"sv, Kind::kTiff},
-    Magic{"MM\0+"sv, Kind::kTiff},
-    Magic{"\x93NUMPY"sv, Kind::kNpy},
+    Magic{"\x89PNG\r\n\x1a\n"sv, FileFormat::kPng},
+    Magic{"II*\0"sv, FileFormat::kTiff},
+    Magic{"MM\0*"sv, FileFormat::kTiff},
+    Magic{"II+\0"sv, FileFormat::kTiff},
+    Magic{"MM\0+"sv, FileFormat::kTiff},
+    Magic{"\x93NUMPY"sv, FileFormat::kNpy},
 };
 
 constexpr std::string_view kPipeVideo =
@@ -30,25 +30,25 @@ constexpr std::string_view kConvertFlir =
     "its raw counts become a picture with: exiftool -b -RawThermalImage FILE > FILE.png";
 
 // Kinds that people try and that thermedge does not read.
-struct Stranger {
+struct UnsupportedFormat {
   std::size_t at;
   std::string_view bytes;
   std::string_view name;
   std::string_view advice = kWhatIsRead;
 };
-constexpr std::array kStrangers = {
-    Stranger{0, "\xff\xd8\xff"sv, "a JPEG picture"},
-    Stranger{0, "BM"sv, "a BMP picture"},
-    Stranger{0, "GIF8"sv, "a GIF picture"},
-    Stranger{8, "WEBP"sv, "a WebP picture"},
-    Stranger{0, "P6"sv, "a colour PPM picture"},
-    Stranger{0, "FFF\0"sv, "a FLIR recording", kConvertFlir},
-    Stranger{0, "AFF\0"sv, "a FLIR recording", kConvertFlir},
-    Stranger{8, "AVI "sv, "an AVI video", kPipeVideo},
-    Stranger{4, "ftyp"sv, "an MP4 or MOV video", kPipeVideo},
-    Stranger{0, "\x1a\x45\xdf\xa3"sv, "a Matroska or WebM video", kPipeVideo},
-    Stranger{0, "\x89HDF"sv, "an HDF5 file"},
-    Stranger{0, "PK\x03\x04"sv, "a ZIP or NPZ archive"},
+constexpr std::array kUnsupportedFormats = {
+    UnsupportedFormat{0, "\xff\xd8\xff"sv, "a JPEG picture"},
+    UnsupportedFormat{0, "BM"sv, "a BMP picture"},
+    UnsupportedFormat{0, "GIF8"sv, "a GIF picture"},
+    UnsupportedFormat{8, "WEBP"sv, "a WebP picture"},
+    UnsupportedFormat{0, "P6"sv, "a colour PPM picture"},
+    UnsupportedFormat{0, "FFF\0"sv, "a FLIR recording", kConvertFlir},
+    UnsupportedFormat{0, "AFF\0"sv, "a FLIR recording", kConvertFlir},
+    UnsupportedFormat{8, "AVI "sv, "an AVI video", kPipeVideo},
+    UnsupportedFormat{4, "ftyp"sv, "an MP4 or MOV video", kPipeVideo},
+    UnsupportedFormat{0, "\x1a\x45\xdf\xa3"sv, "a Matroska or WebM video", kPipeVideo},
+    UnsupportedFormat{0, "\x89HDF"sv, "an HDF5 file"},
+    UnsupportedFormat{0, "PK\x03\x04"sv, "a ZIP or NPZ archive"},
 };
 
 bool has(std::span<const std::byte> bytes, std::size_t at, std::string_view magic) {
@@ -65,20 +65,20 @@ bool is_pgm(std::span<const std::byte> bytes) {
 
 }  // namespace
 
-Kind kind_of(std::span<const std::byte> first_bytes) {
+FileFormat format_of(std::span<const std::byte> first_bytes) {
   for (const Magic& magic : kMagics) {
     if (has(first_bytes, 0, magic.bytes)) {
       return magic.kind;
     }
   }
-  return is_pgm(first_bytes) ? Kind::kPgm : Kind::kUnknown;
+  return is_pgm(first_bytes) ? FileFormat::kPgm : FileFormat::kUnknown;
 }
 
-Error unknown_kind(std::span<const std::byte> first_bytes, const std::string& name) {
+Error unknown_format(std::span<const std::byte> first_bytes, const std::string& name) {
   if (first_bytes.empty()) {
     return {ErrorCode::kBadData, name + ": the file is empty"};
   }
-  for (const Stranger& stranger : kStrangers) {
+  for (const UnsupportedFormat& stranger : kUnsupportedFormats) {
     if (has(first_bytes, stranger.at, stranger.bytes)) {
       return {ErrorCode::kUnsupported,
               name + ": " + std::string(stranger.name) + "; " + std::string(stranger.advice)};

@@ -9,12 +9,12 @@
 
 namespace thermedge::io {
 
-enum class Kind { kUnknown, kPng, kTiff, kPgm, kNpy };
+enum class FileFormat { kUnknown, kPng, kTiff, kPgm, kNpy };
 
 // By the first bytes; 16 are enough.
-[[nodiscard]] Kind kind_of(std::span<const std::byte> first_bytes);
+[[nodiscard]] FileFormat format_of(std::span<const std::byte> first_bytes);
 
 // Says that a file of unknown kind is not read, what it seems to be, and what would help.
-[[nodiscard]] Error unknown_kind(std::span<const std::byte> first_bytes, const std::string& name);
+[[nodiscard]] Error unknown_format(std::span<const std::byte> first_bytes, const std::string& name);
 
 }  // namespace thermedge::io

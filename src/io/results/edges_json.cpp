@@ -21,7 +21,7 @@ Json to_json(const EdgeSet& set, const Edge& edge) {
   for (std::uint32_t i = edge.edgels.first; i < edge.edgels.first + edge.edgels.count; ++i) {
     points.push_back({rounded(set.edgels.x[i]), rounded(set.edgels.y[i])});
   }
-  return {{"id", edge.id},
+  return {{"id", edge.index},
           {"rank", edge.rank},
           {"score", exact(edge.score)},
           {"es", exact(edge.es)},
@@ -64,12 +64,12 @@ Json measured(const Detection& detection) {
   return json;
 }
 
-VerdictCounts count_verdicts(const EdgeSet& set) {
+VerdictCounts count_statuses(const EdgeSet& set) {
   VerdictCounts counts;
   for (const Edge& edge : set.edges) {
-    counts.weak += edge.verdict == EdgeVerdict::kWeak ? 1 : 0;
-    counts.insignificant += edge.verdict == EdgeVerdict::kInsignificant ? 1 : 0;
-    counts.beyond_budget += edge.verdict == EdgeVerdict::kBeyondBudget ? 1 : 0;
+    counts.weak += edge.status == EdgeStatus::kWeak ? 1 : 0;
+    counts.insignificant += edge.status == EdgeStatus::kInsignificant ? 1 : 0;
+    counts.beyond_budget += edge.status == EdgeStatus::kBeyondBudget ? 1 : 0;
   }
   return counts;
 }
@@ -103,10 +103,10 @@ std::string edges_to_json(const Detection& detection, const ResultLabel& label) 
                           {{"ms", to_json(detection.ms)},
                            {"measured", measured(detection)},
                            {"edges_found", set.edges.size()},
-                           {"edges_dropped", to_json(count_verdicts(set))},
-                           {"dead_pixels", detection.dead_pixels.size()},
-                           {"canny_low", rounded(detection.canny_low)},
-                           {"canny_high", rounded(detection.canny_high)}}}};
+                           {"edges_dropped", to_json(count_statuses(set))},
+                           {"bad_pixels", detection.bad_pixels.size()},
+                           {"threshold_low", rounded(detection.threshold_low)},
+                           {"threshold_high", rounded(detection.threshold_high)}}}};
   // A name that is not UTF-8 is shown with replacement characters rather than refused.
   return document.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
 }

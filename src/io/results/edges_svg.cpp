@@ -49,12 +49,12 @@ class SvgText {
 
 void append_edge(SvgText& svg, const EdgeSet& set, const Edge& edge, Rgb colour) {
   const Edgels& e = set.edgels;
-  svg << "<path id=\"edge" << edge.id << "\" stroke=\"" << colour << "\" d=\"";
+  svg << "<path id=\"edge" << edge.index << "\" stroke=\"" << colour << "\" d=\"";
   for (std::uint32_t i = 0; i < edge.edgels.count; ++i) {
     const std::uint32_t at = edge.edgels.first + i;
     svg << (i == 0 ? "M" : "L") << e.x[at] << " " << e.y[at];
   }
-  svg << (edge.closed ? "Z" : "") << "\"><title>edge " << edge.id << ", rank " << edge.rank
+  svg << (edge.closed ? "Z" : "") << "\"><title>edge " << edge.index << ", rank " << edge.rank
       << ", score " << edge.score << ", " << edge.length_px << " px</title></path>\n";
   for (const std::uint32_t corner : set.corners_of(edge)) {
     const std::uint32_t at = edge.edgels.first + corner;

@@ -49,7 +49,7 @@ Result<std::string> encode(const Samples& samples, const std::string& path) {
 }
 
 Status write_samples(const std::string& path, const Samples& samples) {
-  return without_throwing(path, [&] {
+  return catch_bad_alloc(path, [&] {
     return encode(samples, path).and_then([&](const std::string& bytes) {
       return write_file(path, bytes);
     });

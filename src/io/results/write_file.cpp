@@ -115,7 +115,7 @@ Status write_to(const std::string& path, std::string_view bytes) {
 }  // namespace
 
 Status write_file(const std::string& path, std::string_view bytes) {
-  return without_throwing(path, [&] { return write_to(path, bytes); });
+  return catch_bad_alloc(path, [&] { return write_to(path, bytes); });
 }
 
 }  // namespace thermedge::io

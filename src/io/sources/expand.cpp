@@ -26,7 +26,7 @@ bool is_picture(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
   file.read(first.data(), first.size());
   const auto count = static_cast<std::size_t>(file.gcount());
-  return kind_of(std::as_bytes(std::span(first.data(), count))) != Kind::kUnknown;
+  return format_of(std::as_bytes(std::span(first.data(), count))) != FileFormat::kUnknown;
 }
 
 Result<Paths> pictures_in(const std::string& directory) {

@@ -164,7 +164,7 @@ class FileList final : public FrameSource {
   Result<bool> next(Frame& frame) override {
     while (current_ != nullptr || position_ < paths_.size()) {
       const std::string& path = paths_[current_ != nullptr ? position_ - 1 : position_];
-      auto more = without_throwing(path, [&] { return next_of_current(frame); });
+      auto more = catch_bad_alloc(path, [&] { return next_of_current(frame); });
       if (!more || *more) {
         return more;
       }
@@ -208,7 +208,7 @@ class FileList final : public FrameSource {
 
 Result<std::unique_ptr<FrameSource>> open_files(const std::vector<std::string>& inputs,
                                                 const SourceOptions& options) {
-  return without_throwing("input", [&]() -> Result<std::unique_ptr<FrameSource>> {
+  return catch_bad_alloc("input", [&]() -> Result<std::unique_ptr<FrameSource>> {
     std::vector<std::string> paths;
     for (const std::string& input : inputs) {
       auto expanded = expand_input(input);

@@ -43,7 +43,7 @@ struct Evaluation {
   bool binary = false;          // the maps hold two values at the most
   std::vector<int> thresholds;  // that were looked at; with a single one, OIS and AP say nothing
   Scores scores;
-  Merit merit;                 // at the threshold of the scores, mean over the frames
+  PrattFom merit;              // at the threshold of the scores, mean over the frames
   StructureSummary structure;  // at the threshold of the scores
   std::optional<CurveFigures> curves;
   std::vector<Error> errors;  // of frames that were left out
@@ -52,10 +52,10 @@ struct Evaluation {
 };
 
 // Results against truth. The frames are tasks of `runner`; the figures are the same for every
-// Runner. A frame that cannot be read or compared is left out and listed.
+// ParallelRunner. A frame that cannot be read or compared is left out and listed.
 // Errors: no frame could be judged; another number of frames in the truth; an option out of range.
-[[nodiscard]] Result<Evaluation> evaluate(const FoundSet& found, const TruthSet& truth,
-                                          const EvaluationOptions& options, Runner& runner);
+[[nodiscard]] Result<Evaluation> evaluate(const PredictionSet& found, const GroundTruthSet& truth,
+                                          const EvaluationOptions& options, ParallelRunner& runner);
 
 struct PerFrame {
   double mean = 0;
@@ -63,7 +63,7 @@ struct PerFrame {
 };
 
 // What can be said without truth.
-struct LoneEvaluation {
+struct TruthlessEvaluation {
   std::size_t frames = 0;
   int threshold = 0;     // of the maps
   PerFrame edges;        // curves, or fragments of maps; false alarms, where a scene is empty
@@ -75,15 +75,15 @@ struct LoneEvaluation {
   Repeatability repeatability;
   std::vector<Error> errors;
 };
-[[nodiscard]] Result<LoneEvaluation> evaluate_alone(const FoundSet& found,
-                                                    const EvaluationOptions& options,
-                                                    Runner& runner);
+[[nodiscard]] Result<TruthlessEvaluation> evaluate_without_truth(const PredictionSet& found,
+                                                                 const EvaluationOptions& options,
+                                                                 ParallelRunner& runner);
 
 // Everything as one JSON object on one line, rounded to 9 digits. What there was nothing to measure
 // on is null. `found`, `truth`: names of the inputs.
 [[nodiscard]] std::string evaluation_to_json(const Evaluation& evaluation, const std::string& found,
                                              const std::string& truth);
-[[nodiscard]] std::string evaluation_to_json(const LoneEvaluation& evaluation,
+[[nodiscard]] std::string evaluation_to_json(const TruthlessEvaluation& evaluation,
                                              const std::string& found);
 
 }  // namespace thermedge::eval

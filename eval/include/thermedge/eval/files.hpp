@@ -14,7 +14,7 @@
 namespace thermedge::eval {
 
 // Edges that a detector found in a frame: a map, and curves where the file has them.
-struct FoundEdges {
+struct Prediction {
   Image<std::uint8_t> map;  // strength, 0: none; curves: 255
   std::optional<CurveFrame> curves;
 };
@@ -45,14 +45,15 @@ class JsonLines {
 // Results of a detector: a directory of 8-bit PNG (binary maps, or strength with 255 for the best)
 // or of JSON as `detect --write json` gives it, or one such file, or JSON lines (.jsonl), one frame
 // a line. Const functions are thread-safe.
-class FoundSet {
+class PredictionSet {
  public:
   // Errors: nothing there, or PNG and JSON side by side.
-  [[nodiscard]] static Result<FoundSet> open(const std::string& path, const Limits& limits = {});
+  [[nodiscard]] static Result<PredictionSet> open(const std::string& path,
+                                                  const Limits& limits = {});
   // Base names in natural order (2 before 10); of JSON lines "0", "1" ...
   [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
   [[nodiscard]] bool has_curves() const { return curves_; }
-  [[nodiscard]] Result<FoundEdges> read(std::size_t index) const;
+  [[nodiscard]] Result<Prediction> read(std::size_t index) const;
 
  private:
   std::vector<std::string> names_;
@@ -68,7 +69,7 @@ class FoundSet {
 // (curves), looked for in this order; or one file. One file of JSON lines (.jsonl; in a directory:
 // the only one there) holds the frames in the order of the results. Const functions are
 // thread-safe.
-class TruthSet {
+class GroundTruthSet {
  public:
   struct Options {
     // Curves of less contrast are accepted by precision, but not asked for by recall. Unknown
@@ -76,7 +77,7 @@ class TruthSet {
     double least_contrast_counts = 0;
     Limits limits;
   };
-  [[nodiscard]] static Result<TruthSet> open(const std::string& path, const Options& options);
+  [[nodiscard]] static Result<GroundTruthSet> open(const std::string& path, const Options& options);
 
   // An error where JSON lines hold another number of frames.
   [[nodiscard]] Status check_frames(std::size_t count) const;

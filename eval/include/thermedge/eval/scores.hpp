@@ -28,11 +28,11 @@ struct Scores {
 // Pratt's figure of merit (1978): sum of 1 / (1 + d^2 / 9) over the found pixels, d px from the
 // nearest true one, divided by the number of found or of true pixels, whichever is larger. 1 where
 // both maps are empty, 0 where one is. Maps of one size, nonzero: edge. Thread-safe.
-struct Merit {
+struct PrattFom {
   double mean = 0;  // over annotators
   double best = 0;
 };
-[[nodiscard]] Merit pratt_merit(ImageView<const std::uint8_t> found,
-                                std::span<const Image<std::uint8_t>> annotators);
+[[nodiscard]] PrattFom pratt_merit(ImageView<const std::uint8_t> found,
+                                   std::span<const Image<std::uint8_t>> annotators);
 
 }  // namespace thermedge::eval

@@ -37,7 +37,7 @@ struct CameraOptions {
   double row_sigma_counts = 0.9;     // fixed row pattern, counts, 0..5000
   double drift_s = 0;                // time in which a fixed pattern turns into another, s, 0..1e6;
                                      // 0: it stays
-  int dead_pixels = 5;               // stuck at 0 or at the largest count, 0..10000
+  int bad_pixels = 5;                // stuck at 0 or at the largest count, 0..10000
   int flickering_pixels = 0;         // at random off by 10 to 40 sigma, 0..10000
 
   int shutter_every = 0;           // frames from one shutter event to the next, 0..1e6; 0: none
@@ -120,7 +120,7 @@ class Renderer {
 
   // Frame `index` (0 .. frames - 1), in any order. The same options and index give the same bits on
   // every machine and for every runner. Error: no such frame.
-  [[nodiscard]] Result<TrueFrame> render(int index, Runner& runner);
+  [[nodiscard]] Result<TrueFrame> render(int index, ParallelRunner& runner);
   [[nodiscard]] const SceneOptions& options() const;
 
  private:

@@ -23,8 +23,8 @@ struct Surface {
   double temperature_degc = 20;  // -272..1100
   double emissivity = 0.95;      // 0..1; the rest mirrors the surroundings (World::reflected_degc)
   Vec3 gradient_degc_per_m;      // temperature grows along this direction
-  double mottle_degc = 0;        // smooth spots without edges, largest deviation, 0..50; flat faces
-  double mottle_m = 0.4;         // size of the spots, 0.01..1000
+  double value_noise_degc = 0;   // smooth spots without edges, largest deviation, 0..50; flat faces
+  double value_noise_m = 0.4;    // size of the spots, 0.01..1000
 };
 
 // A region of a flat face with a surface of its own: a picture, a seam, a stain, a label.
@@ -97,9 +97,9 @@ struct World {
 };
 
 // Reads a world from TOML (docs/scenes.md); `name` is for messages. `seed` varies what the file
-// lets vary (`sway_m`, `vary_degc`). Errors name the file and the object or line and say what would
-// be right: not TOML, unknown or missing key, wrong type, out of range, below 0 K, no objects.
-// Thread-safe.
+// lets vary (`jitter_m`, `vary_degc`). Errors name the file and the object or line and say what
+// would be right: not TOML, unknown or missing key, wrong type, out of range, below 0 K, no
+// objects. Thread-safe.
 [[nodiscard]] Result<World> parse_world(std::string_view toml, const std::string& name,
                                         std::uint64_t seed);
 

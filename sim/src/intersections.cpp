@@ -1,4 +1,4 @@
-#include "cuts.hpp"
+#include "intersections.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -178,7 +178,7 @@ double reach_of(const Facet& facet) {
 
 }  // namespace
 
-void add_cuts(Facets& world) {
+void add_intersections(Facets& world) {
   const std::vector<Facet>& facets = world.facets;
   for (std::size_t i = 0; i < facets.size(); ++i) {
     for (std::size_t j = 0; j < facets.size(); ++j) {

@@ -1,17 +1,17 @@
-#include "contenders.hpp"
+#include "competitors.hpp"
 
 #include <fmt/core.h>
 
 #include <memory>
 #include <utility>
 
-#include "must.hpp"
 #include "peers/classical.hpp"
 #include "thermedge/detector.hpp"
 #include "thermedge/edge_fields.hpp"
 #include "thermedge/radiometry/grey_scale.hpp"
 #include "thermedge/stages/denoiser.hpp"
 #include "thermedge/stages/noise.hpp"
+#include "value_or_exit.hpp"
 #ifdef THERMEDGE_BENCH_OPENCV
 #include "peers/opencv_canny.hpp"
 #include "peers/opencv_edge_drawing.hpp"
@@ -26,43 +26,44 @@ using Counts = ImageView<const std::uint16_t>;
 using Levels = ImageView<const std::uint8_t>;
 using Map = ImageView<std::uint8_t>;
 
-constexpr ScaleOptions kScale;
+constexpr GreyScaleOptions kScale;
 
 // Algorithm 1, then a filter of levels.
-Front front(std::string name, const std::function<void(Levels, Map)>& filter) {
+FrontEnd front(std::string name, const std::function<void(Levels, Map)>& filter) {
   return {std::move(name), [filter](Counts counts, Map levels) {
             Image<std::uint8_t> plain(counts.width(), counts.height());
-            must(scale_to_8bit(counts, kScale, plain));
+            value_or_exit(scale_to_8bit(counts, kScale, plain));
             filter(plain, levels);
           }};
 }
 
-Front front_without_filter() {
-  return {"none", [](Counts counts, Map levels) { must(scale_to_8bit(counts, kScale, levels)); }};
+FrontEnd front_without_filter() {
+  return {"none",
+          [](Counts counts, Map levels) { value_or_exit(scale_to_8bit(counts, kScale, levels)); }};
 }
 
 double sigma_levels(Counts counts) {
   return NoiseEstimator().measure(counts).sigma_counts * kScale.gain;
 }
 
-Front our_denoiser(std::string name, DenoiseMethod method) {
-  return {
-      std::move(name), [method](Counts counts, Map levels) {
-        Image<std::uint8_t> plain(counts.width(), counts.height());
-        must(scale_to_8bit(counts, kScale, plain));
-        Image<float> values(counts.width(), counts.height());
-        copy_pixels(plain.view(), values.view());
-        DenoiseOptions options;
-        options.method = method;
-        must(Denoiser(options).run_measured(values, sigma_levels(counts), values, *make_runner(1)));
-        Image<std::uint16_t> rounded(counts.width(), counts.height());
-        round_to_counts(values, rounded);
-        for (int y = 0; y < levels.height(); ++y) {
-          for (int x = 0; x < levels.width(); ++x) {
-            levels(x, y) = static_cast<std::uint8_t>(std::min<int>(rounded(x, y), 255));
-          }
-        }
-      }};
+FrontEnd our_denoiser(std::string name, DenoiseMethod method) {
+  return {std::move(name), [method](Counts counts, Map levels) {
+            Image<std::uint8_t> plain(counts.width(), counts.height());
+            value_or_exit(scale_to_8bit(counts, kScale, plain));
+            Image<float> values(counts.width(), counts.height());
+            copy_pixels(plain.view(), values.view());
+            DenoiseOptions options;
+            options.method = method;
+            value_or_exit(Denoiser(options).run_measured(values, sigma_levels(counts), values,
+                                                         *make_runner(1)));
+            Image<std::uint16_t> rounded(counts.width(), counts.height());
+            round_to_counts(values, rounded);
+            for (int y = 0; y < levels.height(); ++y) {
+              for (int x = 0; x < levels.width(); ++x) {
+                levels(x, y) = static_cast<std::uint8_t>(std::min<int>(rounded(x, y), 255));
+              }
+            }
+          }};
 }
 
 Finder classical_finder(ClassicalMethod method, double threshold) {
@@ -89,8 +90,8 @@ std::string display_name(const ClassicalName& method) {
 }
 
 #ifdef THERMEDGE_BENCH_OPENCV
-std::vector<Front> gaussian_fronts(std::initializer_list<double> sigmas_px) {
-  std::vector<Front> fronts;
+std::vector<FrontEnd> gaussian_fronts(std::initializer_list<double> sigmas_px) {
+  std::vector<FrontEnd> fronts;
   for (const double sigma : sigmas_px) {
     fronts.push_back(front(fmt::format("Gaussian {} px", sigma),
                            [sigma](Levels in, Map out) { opencv_blur(in, sigma, out); }));
@@ -98,8 +99,8 @@ std::vector<Front> gaussian_fronts(std::initializer_list<double> sigmas_px) {
   return fronts;
 }
 
-std::vector<Front> median_fronts() {
-  std::vector<Front> fronts;
+std::vector<FrontEnd> median_fronts() {
+  std::vector<FrontEnd> fronts;
   for (const int size : {3, 5, 7, 11, 15}) {
     fronts.push_back(front(fmt::format("median {} px", size),
                            [size](Levels in, Map out) { opencv_median(in, size, out); }));
@@ -107,8 +108,8 @@ std::vector<Front> median_fronts() {
   return fronts;
 }
 
-std::vector<Front> nlm_fronts() {
-  std::vector<Front> fronts;
+std::vector<FrontEnd> nlm_fronts() {
+  std::vector<FrontEnd> fronts;
   for (const double h : {3.0, 6.0, 10.0, 16.0, 24.0}) {
     fronts.push_back(front(fmt::format("NL-means h {}", h),
                            [h](Levels in, Map out) { opencv_nlm_of_levels(in, h, out); }));
@@ -137,7 +138,7 @@ std::vector<Finder> edge_drawing_finders() {
 
 std::vector<Finder> one_finder(void (*run)(Levels, Map)) { return {{"defaults", run}}; }
 
-std::vector<Contender> opencv_contenders() {
+std::vector<Competitor> opencv_competitors() {
   const auto blurs = [] { return gaussian_fronts({0.7, 1.0, 1.5, 2.0, 3.0, 4.0}); };
   return {{"Canny behind Gaussian", "OpenCV", {}, blurs(), canny_finders()},
           {"Canny behind median", "OpenCV", {}, median_fronts(), canny_finders()},
@@ -150,15 +151,15 @@ std::vector<Contender> opencv_contenders() {
 
 }  // namespace
 
-std::string Contender::setting_name(std::size_t setting) const {
+std::string Competitor::setting_name(std::size_t setting) const {
   if (whole) {
     return "defaults";
   }
   return fronts[setting / finders.size()].name + " " + finders[setting % finders.size()].name;
 }
 
-void Contender::run(std::size_t setting, ImageView<const std::uint16_t> counts,
-                    ImageView<std::uint8_t> map) const {
+void Competitor::run(std::size_t setting, ImageView<const std::uint16_t> counts,
+                     ImageView<std::uint8_t> map) const {
   if (whole) {
     whole(counts, map);
     return;
@@ -171,13 +172,14 @@ void Contender::run(std::size_t setting, ImageView<const std::uint16_t> counts,
 WholeDetector ours(const DetectorOptions& options) {
   DetectorOptions on_one_thread = options;
   on_one_thread.threads = 1;
-  const auto detector = std::make_shared<Detector>(must(Detector::create(on_one_thread)));
-  return
-      [detector](Counts counts, Map map) { draw_mask(must(detector->detect(counts))->edges, map); };
+  const auto detector = std::make_shared<Detector>(value_or_exit(Detector::create(on_one_thread)));
+  return [detector](Counts counts, Map map) {
+    draw_mask(value_or_exit(detector->detect(counts))->edges, map);
+  };
 }
 
-std::vector<Contender> all_contenders() {
-  std::vector<Contender> all;
+std::vector<Competitor> all_competitors() {
+  std::vector<Competitor> all;
   all.reserve(16);
   for (const auto& preset : kPresets) {
     all.push_back({"thermedge " + std::string(preset.name),
@@ -187,29 +189,29 @@ std::vector<Contender> all_contenders() {
                    {}});
   }
 #ifdef THERMEDGE_BENCH_OPENCV
-  for (Contender& peer : opencv_contenders()) {
+  for (Competitor& peer : opencv_competitors()) {
     all.push_back(std::move(peer));
   }
 #endif
   for (const ClassicalName& method : kClassicalMethods) {
-    Contender contender{display_name(method), "classical", {}, {}, {}};
-    contender.fronts = {front_without_filter(),
-                        our_denoiser("Gaussian 5x5", DenoiseMethod::kGaussian)};
-    contender.finders = classical_finders(method.method);
-    all.push_back(std::move(contender));
+    Competitor competitor{display_name(method), "classical", {}, {}, {}};
+    competitor.fronts = {front_without_filter(),
+                         our_denoiser("Gaussian 5x5", DenoiseMethod::kGaussian)};
+    competitor.finders = classical_finders(method.method);
+    all.push_back(std::move(competitor));
   }
   return all;
 }
 
-std::vector<Front> denoising_fronts() {
-  std::vector<Front> fronts;
+std::vector<FrontEnd> denoising_fronts() {
+  std::vector<FrontEnd> fronts;
   fronts.push_back(front_without_filter());
   fronts.push_back(our_denoiser("Gaussian", DenoiseMethod::kGaussian));
 #ifdef THERMEDGE_BENCH_OPENCV
   fronts.push_back(front("median", [](Levels in, Map out) { opencv_median(in, 5, out); }));
   fronts.push_back({"bilateral", [](Counts counts, Map levels) {
                       Image<std::uint8_t> plain(counts.width(), counts.height());
-                      must(scale_to_8bit(counts, kScale, plain));
+                      value_or_exit(scale_to_8bit(counts, kScale, plain));
                       opencv_bilateral(plain, 3 * sigma_levels(counts), 2, levels);
                     }});
 #endif
@@ -218,8 +220,8 @@ std::vector<Front> denoising_fronts() {
   return fronts;
 }
 
-std::vector<Contender> detectors_on_levels() {
-  std::vector<Contender> all;
+std::vector<Competitor> detectors_on_levels() {
+  std::vector<Competitor> all;
   all.reserve(16);
   for (const ClassicalName& method : kClassicalMethods) {
     all.push_back({display_name(method), "classical", {}, {}, classical_finders(method.method)});
@@ -233,7 +235,7 @@ std::vector<Contender> detectors_on_levels() {
   return all;
 }
 
-std::vector<Contender> peers_for_detection() {
+std::vector<Competitor> peers_for_detection() {
 #ifdef THERMEDGE_BENCH_OPENCV
   std::vector<Finder> cannies;
   double high = 4;

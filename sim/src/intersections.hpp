@@ -9,6 +9,6 @@ namespace thermedge::sim {
 // cut each other: flat with flat, flat with ball, flat with tube, ball with ball, and ball with a
 // tube whose axis runs through its centre. Of two that only touch, the outline is there already.
 // Not covered: tubes that pierce tubes, and balls beside a tube's axis.
-void add_cuts(Facets& world);
+void add_intersections(Facets& world);
 
 }  // namespace thermedge::sim

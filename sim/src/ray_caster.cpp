@@ -1,4 +1,4 @@
-#include "caster.hpp"
+#include "ray_caster.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -87,7 +87,7 @@ double SeenFacet::hit_round(Vec3 direction) const {
   return 0;
 }
 
-Caster::Caster(const World& world, const Facets& facets, const Lens& lens, int margin_px)
+RayCaster::RayCaster(const World& world, const Facets& facets, const Lens& lens, int margin_px)
     : world_(world),
       facets_(facets),
       lens_(lens),
@@ -97,7 +97,7 @@ Caster::Caster(const World& world, const Facets& facets, const Lens& lens, int m
       tiles_y_((lens.intrinsics().height + 2 * margin_px + kTilePx) / kTilePx),
       tiles_(static_cast<std::size_t>(tiles_x_) * static_cast<std::size_t>(tiles_y_)) {}
 
-void Caster::look(const Pose& pose, Runner& runner) {
+void RayCaster::set_pose(const Pose& pose, ParallelRunner& runner) {
   eye_ = pose.position_m;
   axes_ = axes_of(pose);
   seen_.clear();
@@ -121,13 +121,13 @@ void Caster::look(const Pose& pose, Runner& runner) {
 }
 
 // False only where the whole facet lies beyond one of the four planes through the eye.
-bool Caster::may_show(const SeenFacet& seen, const Vec3 (&sides)[4]) const {
+bool RayCaster::may_show(const SeenFacet& seen, const Vec3 (&sides)[4]) const {
   const Facet& facet = facets_.facets[static_cast<std::size_t>(seen.index)];
   return std::all_of(std::begin(sides), std::end(sides),
                      [&](Vec3 inward) { return -least_along(facet, eye_, -inward) >= 0; });
 }
 
-void Caster::fill_tile(int index) {
+void RayCaster::fill_tile(int index) {
   // Distortion bends the tile's sides; by far less than this.
   constexpr double kSlackPx = 1;
   const int column = index % tiles_x_;
@@ -151,7 +151,7 @@ void Caster::fill_tile(int index) {
   }
 }
 
-std::span<const std::int16_t> Caster::facets_near(Point pixel) const {
+std::span<const std::int16_t> RayCaster::facets_near(Point pixel) const {
   const auto tile_of = [&](double position, int count) {
     const double tile = std::floor((position + margin_px_ + 0.5) / kTilePx);
     return static_cast<int>(std::clamp(tile, 0.0, count - 1.0));
@@ -160,7 +160,7 @@ std::span<const std::int16_t> Caster::facets_near(Point pixel) const {
   return tiles_[static_cast<std::size_t>(index)];
 }
 
-Hit Caster::cast(Point ray, std::span<const std::int16_t> among) const {
+Hit RayCaster::cast(Point ray, std::span<const std::int16_t> among) const {
   const Vec3 towards = direction(ray);
   Hit best;
   for (const std::int16_t i : among) {
@@ -181,7 +181,7 @@ Hit Caster::cast(Point ray, std::span<const std::int16_t> among) const {
   return best;
 }
 
-double Caster::counts(Vec3 p, int facet, int patch) const {
+double RayCaster::counts(Vec3 p, int facet, int patch) const {
   if (facet < 0) {
     return radiometer_.counts(world_.sky_degc, 1);
   }

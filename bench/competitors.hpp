@@ -12,7 +12,7 @@
 namespace thermedge::bench {
 
 // What stands in front of a detector: counts -> 8-bit levels (Algorithm 1 and a filter).
-struct Front {
+struct FrontEnd {
   std::string name;
   std::function<void(ImageView<const std::uint16_t> counts, ImageView<std::uint8_t> levels)> run;
 };
@@ -28,11 +28,11 @@ using WholeDetector =
     std::function<void(ImageView<const std::uint16_t> counts, ImageView<std::uint8_t> map)>;
 
 // Ours as they come (`whole`), or every pair of a front and a finder as settings to choose from.
-struct Contender {
+struct Competitor {
   std::string name;
   std::string family;  // thermedge, OpenCV or classical
   WholeDetector whole;
-  std::vector<Front> fronts;
+  std::vector<FrontEnd> fronts;
   std::vector<Finder> finders;
 
   [[nodiscard]] std::size_t settings() const { return whole ? 1 : fronts.size() * finders.size(); }
@@ -45,16 +45,16 @@ struct Contender {
 [[nodiscard]] WholeDetector ours(const DetectorOptions& options);
 
 // The presets, and each peer with the settings that it is tuned over.
-[[nodiscard]] std::vector<Contender> all_contenders();
+[[nodiscard]] std::vector<Competitor> all_competitors();
 
 // No filter, Gaussian, NL-means and BM3D of this library; median and bilateral of OpenCV.
-[[nodiscard]] std::vector<Front> denoising_fronts();
-// Detectors on levels with the thresholds that they are tuned over, one contender each, without
+[[nodiscard]] std::vector<FrontEnd> denoising_fronts();
+// Detectors on levels with the thresholds that they are tuned over, one competitor each, without
 // fronts.
-[[nodiscard]] std::vector<Contender> detectors_on_levels();
+[[nodiscard]] std::vector<Competitor> detectors_on_levels();
 
 // OpenCV's Canny behind a Gaussian and EDPF behind one, from the least to the most cautious
 // setting; empty without OpenCV.
-[[nodiscard]] std::vector<Contender> peers_for_detection();
+[[nodiscard]] std::vector<Competitor> peers_for_detection();
 
 }  // namespace thermedge::bench

@@ -1,4 +1,4 @@
-#include "report.hpp"
+#include "console.hpp"
 
 #include <fmt/core.h>
 #include <unistd.h>
@@ -15,13 +15,13 @@ constexpr int kBarWidth = 30;
 
 }  // namespace
 
-Report::Report(bool quiet, bool json_log)
+Console::Console(bool quiet, bool json_log)
     : quiet_(quiet),
       json_(json_log),
       terminal_(isatty(STDERR_FILENO) != 0),
       start_(std::chrono::steady_clock::now()) {}
 
-void Report::line(std::string_view level, std::string_view message) {
+void Console::line(std::string_view level, std::string_view message) {
   clear_bar();
   if (json_) {
     const nlohmann::ordered_json entry = {{"level", level}, {"message", message}};
@@ -32,23 +32,23 @@ void Report::line(std::string_view level, std::string_view message) {
   }
 }
 
-void Report::error(std::string_view message) {
+void Console::error(std::string_view message) {
   ++errors_;
   line("error", message);
 }
 
-int Report::fail(const Error& failure) {
+int Console::fail(const Error& failure) {
   error(failure.message);
   return failure.code == ErrorCode::kInvalidArgument ? kBadUsage : kBadInput;
 }
 
-void Report::note(std::string_view message) {
+void Console::note(std::string_view message) {
   if (!quiet_) {
     line("info", message);
   }
 }
 
-void Report::progress(std::size_t done, std::size_t expected) {
+void Console::progress(std::size_t done, std::size_t expected) {
   const auto elapsed = std::chrono::steady_clock::now() - start_;
   if (quiet_ || json_ || !terminal_ || elapsed < std::chrono::seconds(1)) {
     return;
@@ -67,7 +67,7 @@ void Report::progress(std::size_t done, std::size_t expected) {
   }
 }
 
-void Report::clear_bar() {
+void Console::clear_bar() {
   if (bar_shown_) {
     fmt::print(stderr, "\r\033[K");
     bar_shown_ = false;

@@ -14,9 +14,9 @@ inline constexpr int kGood = 0;
 inline constexpr int kBadInput = 1;
 inline constexpr int kBadUsage = 2;
 
-class Report {
+class Console {
  public:
-  Report(bool quiet, bool json_log);
+  Console(bool quiet, bool json_log);
 
   // One line each; errors are counted. Notes are left out by --quiet.
   void error(std::string_view message);

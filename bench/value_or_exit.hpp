@@ -16,13 +16,13 @@ namespace thermedge::bench {
 }
 
 template <class T>
-T must(Result<T> result) {
+T value_or_exit(Result<T> result) {
   if (!result) {
     give_up(result.error().message);
   }
   return std::move(*result);
 }
-inline void must(const Status& status) {
+inline void value_or_exit(const Status& status) {
   if (!status) {
     give_up(status.error().message);
   }

@@ -10,7 +10,7 @@ struct LoneFrame {
   MapStructure structure;
 };
 
-LoneFrame look_at(const FoundEdges& found, int threshold, const EvaluationOptions& options) {
+LoneFrame look_at(const Prediction& found, int threshold, const EvaluationOptions& options) {
   LoneFrame frame;
   Image<std::uint8_t> map;
   thin_at(found.map.view(), threshold, map);
@@ -19,7 +19,7 @@ LoneFrame look_at(const FoundEdges& found, int threshold, const EvaluationOption
   return frame;
 }
 
-CurveFrame as_curves(FoundEdges found, int threshold) {
+CurveFrame as_curves(Prediction found, int threshold) {
   if (found.curves) {
     return std::move(*found.curves);
   }
@@ -40,8 +40,8 @@ PerFrame per_frame(const std::vector<std::size_t>& values) {
 
 // Reads the frames again, two at a time, so that long sequences need not fit into memory. Frames
 // that can't be read are no part of a pair.
-void repeat(const FoundSet& found, const EvaluationOptions& options, Runner& runner,
-            LoneEvaluation& evaluation) {
+void repeat(const PredictionSet& found, const EvaluationOptions& options, ParallelRunner& runner,
+            TruthlessEvaluation& evaluation) {
   auto pairs = for_each_frame<std::optional<Repeatability>>(
       found, runner, options.progress, found.names().size() - 1,
       [&](std::size_t i) -> Result<std::optional<Repeatability>> {
@@ -66,20 +66,21 @@ void repeat(const FoundSet& found, const EvaluationOptions& options, Runner& run
 
 }  // namespace
 
-Result<LoneEvaluation> evaluate_alone(const FoundSet& found, const EvaluationOptions& options,
-                                      Runner& runner) {
+Result<TruthlessEvaluation> evaluate_without_truth(const PredictionSet& found,
+                                                   const EvaluationOptions& options,
+                                                   ParallelRunner& runner) {
   if (Status status = check(options); !status) {
     return tl::unexpected(status.error());
   }
-  return io::without_throwing("evaluation", [&]() -> Result<LoneEvaluation> {
-    LoneEvaluation evaluation;
+  return io::catch_bad_alloc("evaluation", [&]() -> Result<TruthlessEvaluation> {
+    TruthlessEvaluation evaluation;
     // Without truth there is no best threshold; every pixel of a strength map counts.
     const Thresholds thresholds = choose_thresholds(found, options);
     evaluation.threshold = thresholds.values.size() > 1 ? 1 : thresholds.values.front();
     std::vector<LoneFrame> frames = take_good(
         for_each_frame<LoneFrame>(found, runner, options.progress, found.names().size(),
                                   [&](std::size_t i) -> Result<LoneFrame> {
-                                    return found.read(i).map([&](const FoundEdges& edges) {
+                                    return found.read(i).map([&](const Prediction& edges) {
                                       return look_at(edges, evaluation.threshold, options);
                                     });
                                   }),

@@ -42,13 +42,13 @@ struct SeenFacet {
 
 // The facets of a world before one camera. Sorted into tiles of the picture, so that a ray meets
 // few of them. const functions are thread-safe.
-class Caster {
+class RayCaster {
  public:
-  // The picture and `margin_px` around it can be asked for. All arguments outlive the caster.
-  Caster(const World& world, const Facets& facets, const Lens& lens, int margin_px);
+  // The picture and `margin_px` around it can be asked for. All arguments outlive the ray_caster.
+  RayCaster(const World& world, const Facets& facets, const Lens& lens, int margin_px);
 
   // For each frame, before the rest.
-  void look(const Pose& pose, Runner& runner);
+  void set_pose(const Pose& pose, ParallelRunner& runner);
 
   [[nodiscard]] Vec3 eye() const { return eye_; }
   [[nodiscard]] const Axes& axes() const { return axes_; }
