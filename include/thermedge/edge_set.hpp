@@ -46,7 +46,7 @@ struct Edge {
           // by oriented kernels, log(mean suppressed_response) + .25 log N, larger is better
   double display_strength = 0;  // 0..1, falls with the rank, for pictures. By the score, so that it
                                 // means the same in every frame; where ES ranks, evenly from 1 to 0
-  double es = 0;                // edge score of the paper, eqs. 14-18
+  double es = 0;         // edge score of the paper, eqs. 14-18
   double z = 0;          // contrast across the edge on the frame before denoising, in units of
                          // its standard deviation by noise alone
   double log10_nfa = 0;  // log10 of the expected number of such edges in pure noise

@@ -18,6 +18,7 @@
 #include "thermedge/stages/canny.hpp"
 #include "thermedge/stages/contours.hpp"
 #include "thermedge/stages/corners.hpp"
+#include "thermedge/stages/corners_paper.hpp"
 #include "thermedge/stages/denoiser.hpp"
 #include "thermedge/stages/edge_graph.hpp"
 #include "thermedge/stages/gap_closing.hpp"
@@ -61,6 +62,7 @@ struct DetectorOptions {
   ContourOptions contours;
   GraphOptions graph;
   GapClosingOptions gap_closing;
+  PaperCornerOptions paper_corners;
   CornerOptions corners;
   LinkingOptions linking;
   ScoringOptions scoring;
@@ -220,7 +222,7 @@ void visit_options(O& o, V&& v) {
     "contrast across a bridge, as a share of that across the end before it");
 }
 
-template <OptionsOf<CornerOptions> O, class V>
+template <OptionsOf<PaperCornerOptions> O, class V>
 void visit_options(O& o, V&& v) {
   v("sigma_px", o.sigma_px, Bounds{0.5, 10}, "smoothing of the curve before curvature, px");
   v("curvature_ratio", o.curvature_ratio, Bounds{1, 100},
@@ -229,6 +231,16 @@ void visit_options(O& o, V&& v) {
   v("end_points", o.end_points, Bounds{0, 1}, "ends of open curves are corners");
   v("end_distance_px", o.end_distance_px, Bounds{0, 1000},
     "... where farther than this from every other corner, px");
+}
+
+template <OptionsOf<CornerOptions> O, class V>
+void visit_options(O& o, V&& v) {
+  v("sigma_px", o.sigma_px, Bounds{0.5, 10}, "smoothing of the contour before curvature, px");
+  v("curvature_ratio", o.curvature_ratio, Bounds{1, 100},
+    "a corner is sharper than this many times the mean of its arms");
+  v("max_angle_deg", o.max_angle_deg, Bounds{90, 180}, "wider angles are no corners, degrees");
+  v("end_distance_px", o.end_distance_px, Bounds{0, 1000},
+    "no farther than this from an end of its contour, the end stands for a corner, px");
 }
 
 template <OptionsOf<LinkingOptions> O, class V>
@@ -264,6 +276,7 @@ void visit_options(O& o, V&& v) {
   v.group("contours", o.contours);
   v.group("graph", o.graph);
   v.group("gap_closing", o.gap_closing);
+  v.group("paper_corners", o.paper_corners);
   v.group("corners", o.corners);
   v.group("linking", o.linking);
   v.group("scoring", o.scoring);

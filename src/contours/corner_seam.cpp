@@ -3,7 +3,7 @@
 #include <span>
 #include <utility>
 
-#include "thermedge/stages/corners.hpp"
+#include "thermedge/stages/corners_paper.hpp"
 
 namespace thermedge {
 namespace {

@@ -2,48 +2,92 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
+#include <numbers>
+#include <optional>
 
-#include "corner_angle.hpp"
+#include "arm_tangent.hpp"
 #include "curvature.hpp"
 #include "thermedge/options.hpp"
 
 namespace thermedge {
 namespace {
 
-constexpr std::int32_t kNone = -1;
+using detail::cross;
+using detail::dot;
+using detail::tangent;
+using detail::Vector;
 
-// One more than the largest y.
-std::size_t count_rows(const std::vector<Pixel>& points) {
-  std::int32_t rows = 0;
-  for (const Pixel point : points) {
-    rows = std::max(rows, point.y + 1);
+constexpr double kRadians = std::numbers::pi / 180;
+
+// Curvature by sample number: that of a closed contour repeats, and beyond the ends of an open one
+// there is none.
+struct Curvature {
+  std::span<const double> values;
+  bool closed;
+
+  [[nodiscard]] std::ptrdiff_t count() const { return static_cast<std::ptrdiff_t>(values.size()); }
+  [[nodiscard]] std::ptrdiff_t wrapped(std::ptrdiff_t i) const {
+    return (i % count() + count()) % count();
   }
-  return static_cast<std::size_t>(rows);
+  double operator[](std::ptrdiff_t i) const {
+    if (i < 0 || i >= count()) {
+      return closed ? values[static_cast<std::size_t>(wrapped(i))] : 0;
+    }
+    return values[static_cast<std::size_t>(i)];
+  }
+};
+
+// Whether `i` is the first of the equal peaks of its hill: the samples around it down to `saddle`,
+// of which none is higher. Then the last of them, not wrapped around.
+std::optional<std::ptrdiff_t> last_peak_from(const Curvature& curvature, std::ptrdiff_t i,
+                                             double saddle) {
+  const double peak = curvature[i];
+  const std::ptrdiff_t count = curvature.count();
+  std::ptrdiff_t first_below = i - 1;
+  while (first_below > i - count && curvature[first_below] > saddle) {
+    if (curvature[first_below] >= peak) {
+      return std::nullopt;
+    }
+    --first_below;
+  }
+  std::ptrdiff_t last = i;
+  for (std::ptrdiff_t k = i + 1; k <= first_below + count; ++k) {
+    if (curvature[k] > peak) {
+      return std::nullopt;
+    }
+    if (curvature[k] <= saddle) {
+      return last;
+    }
+    last = curvature[k] == peak ? k : last;
+  }
+  return std::nullopt;  // a closed contour without a saddle
 }
 
-// How many steps from `from` towards `to` the first smallest value lies. NaN is larger than any.
-std::size_t steps_to_minimum(const std::vector<double>& values, std::size_t from, std::size_t to) {
-  const bool forward = to >= from;
-  const std::size_t count = forward ? to - from : from - to;
-  std::size_t best = 0;
-  double smallest = values[from];
-  for (std::size_t i = 1; i <= count; ++i) {
-    const double value = forward ? values[from + i] : values[from - i];
-    if (value < smallest || (std::isnan(smallest) && !std::isnan(value))) {
-      smallest = value;
-      best = i;
+// Which of two neighbours lies on the side of the larger curvature: negative the left one,
+// positive the right one, 0 where both sides are mirror images.
+int larger_side(const Curvature& curvature, std::ptrdiff_t left, std::ptrdiff_t right) {
+  for (std::ptrdiff_t k = 0; k < curvature.count(); ++k) {
+    const double on_left = curvature[left - k];
+    const double on_right = curvature[right + k];
+    if (on_left != on_right) {
+      return on_left > on_right ? -1 : 1;
     }
   }
-  return best;
+  return 0;
 }
 
-double mean(std::span<const double> values) {
-  double sum = 0;
-  for (const double value : values) {
-    sum += value;
+// How many samples besides the first lie within `distance_px` along a contour.
+template <class Iterator>
+std::size_t samples_within(Iterator from, Iterator end, double distance_px) {
+  std::size_t samples = 0;
+  double distance = 0;
+  for (auto next = from + 1; next != end; ++from, ++next, ++samples) {
+    distance += std::sqrt(static_cast<double>(squared_distance(*from, *next)));
+    if (distance > distance_px) {
+      break;
+    }
   }
-  return sum / static_cast<double>(values.size());
+  return samples;
 }
 
 }  // namespace
@@ -53,186 +97,235 @@ void CornerSet::clear() {
   ranges.clear();
 }
 
-// Algorithm 4.
 Status CornerFinder::run(const ContourSet& contours, CornerSet& corners) {
   corners.clear();
   if (Status status = check_ranges(options_, "corners."); !status) {
     return status;
   }
   prepare(contours, corners);
-  find_curvature_corners(contours);
-  add_end_points(contours, corners);
+  for (const Contour& contour : contours.items) {
+    const Curve curve{contours.pixels(contour), contour.closed};
+    find_curvature(curve);
+    find_candidates(curve);
+    remove_near_ends(curve);
+    remove_blunt(curve);
+    append(curve, corners);
+  }
   return {};
 }
 
 void CornerFinder::prepare(const ContourSet& contours, CornerSet& corners) {
-  detail::gaussian_kernel(options_.sigma_px, kernel_);
+  set_kernel();
   const std::size_t points = contours.points.capacity();
-  const std::size_t samples = points + kernel_.size();
-  padded_.reserve(points + 2 * kernel_.size());
-  for (auto* values : {&rows_, &columns_, &curvature_}) {
-    values->reserve(samples);
+  padded_.reserve(points + kernel_.size());
+  for (auto* values : {&x_steps_, &y_steps_, &curvature_}) {
+    values->reserve(points + 1);
   }
-  for (auto* places : {&extrema_, &candidates_, &sharp_}) {
-    places->reserve(samples);
-  }
-  found_.reserve(points);
-  found_.clear();
-  last_in_row_.reserve(points);
-  last_in_row_.assign(count_rows(contours.points), kNone);
-  inner_.clear();
-  for (CornerSet* set : {&inner_, &corners}) {
-    set->indices.reserve(points);
-    set->ranges.reserve(contours.items.capacity());
+  candidates_.reserve(points);
+  sharp_.reserve(points);
+  corners.indices.reserve(points);
+  corners.ranges.reserve(contours.items.capacity());
+}
+
+// Sums of whole numbers are exact in any order.
+void CornerFinder::set_kernel() {
+  constexpr double kCentre = 16384;
+  constexpr double kHalfWidthSigmas = 4;
+  const double sigma = options_.sigma_px;
+  const int half_width = static_cast<int>(std::ceil(kHalfWidthSigmas * sigma));
+  kernel_.clear();
+  kernel_sum_ = 0;
+  for (int t = -half_width; t <= half_width; ++t) {
+    kernel_.push_back(std::round(kCentre * std::exp(-(t * t) / (2 * sigma * sigma))));
+    kernel_sum_ += kernel_.back();
   }
 }
 
-void CornerFinder::find_curvature_corners(const ContourSet& contours) {
-  const std::size_t margin = kernel_.size() / 2;
-  for (const Contour& contour : contours.items) {
-    const auto pixels = contours.pixels(contour);
-    const auto first = static_cast<std::uint32_t>(inner_.indices.size());
-    if (pixels.size() > margin) {
-      smooth_curve(pixels, contour.closed);
-      detail::rounded_curvature(rows_, columns_, curvature_);
-      find_extrema();
-      find_candidates();
-      remove_wide_angles();
-      for (const std::size_t sample : candidates_) {
-        if (sample >= margin && sample - margin < pixels.size()) {
-          inner_.indices.push_back(static_cast<std::uint32_t>(sample - margin));
-          remember(pixels[sample - margin]);
-        }
-      }
+// Steps of a closed contour repeat; those of an open one are mirrored at its ends, as though the
+// contour went on, reflected in its end point.
+void CornerFinder::smooth_steps(const Curve& curve, std::int32_t Pixel::*coordinate,
+                                std::vector<double>& smoothed) {
+  const auto count = static_cast<std::ptrdiff_t>(curve.pixels.size());
+  const auto margin = static_cast<std::ptrdiff_t>(kernel_.size() / 2);
+  padded_.resize(static_cast<std::size_t>(count + 1 + 2 * margin));
+  double* const step = padded_.data() + margin;  // step[i] leads from sample i - 1 to sample i
+  const Pixel* const at = curve.pixels.data();
+  for (std::ptrdiff_t i = 1; i < count; ++i) {
+    step[i] = at[i].*coordinate - at[i - 1].*coordinate;
+  }
+  if (curve.closed) {
+    step[0] = at[0].*coordinate - at[count - 1].*coordinate;
+    for (std::ptrdiff_t i = 0; i <= margin; ++i) {
+      step[count + i] = step[i];
     }
-    inner_.ranges.push_back({first, static_cast<std::uint32_t>(inner_.indices.size()) - first});
+    for (std::ptrdiff_t i = 1; i <= margin; ++i) {
+      step[-i] = step[count - i];
+    }
+  } else {
+    for (std::ptrdiff_t i = 0; i <= margin;
+         ++i) {  // in turn: on a short contour each reads the other
+      step[-i] = step[i + 1];
+      step[count + i] = step[count - 1 - i];
+    }
+  }
+  smoothed.resize(static_cast<std::size_t>(count + 1));
+  detail::smooth(padded_, kernel_, smoothed);
+}
+
+// Eq. 9. The first derivative at a sample is half the sum of the steps before and after it, the
+// second one their difference.
+void CornerFinder::find_curvature(const Curve& curve) {
+  const std::size_t count = curve.pixels.size();
+  curvature_.assign(count, 0.0);
+  if (count < 3) {
+    return;
+  }
+  smooth_steps(curve, &Pixel::x, x_steps_);
+  smooth_steps(curve, &Pixel::y, y_steps_);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Vector before{x_steps_[i], y_steps_[i]};
+    const Vector after{x_steps_[i + 1], y_steps_[i + 1]};
+    const Vector both{before.x + after.x, before.y + after.y};
+    const double square = dot(both, both);
+    const double cube = square * std::sqrt(square);
+    curvature_[i] = cube > 0 ? 8 * kernel_sum_ * std::abs(cross(before, after)) / cube : 0;
   }
 }
 
-// Margins: the other end of a closed curve, the curve reflected at its end otherwise. The public
-// code counts pixels from 1 and convolves in full, as though zeros followed: the margins bend
-// towards its origin, and they stay part of the curve.
-void CornerFinder::smooth_curve(std::span<const Pixel> pixels, bool closed) {
-  const std::size_t margin = kernel_.size() / 2;
-  const std::size_t count = pixels.size();
-  const auto smooth_coordinate = [&](std::int32_t Pixel::*coordinate,
-                                     std::vector<double>& smoothed) {
-    const auto value = [&](std::size_t i) { return 1.0 + pixels[i].*coordinate; };
-    padded_.assign(count + 4 * margin, 0.0);
-    double* before = padded_.data() + margin;
-    double* inside = before + margin;
-    double* behind = inside + count;
-    for (std::size_t i = 0; i < count; ++i) {
-      inside[i] = value(i);
-    }
-    for (std::size_t i = 0; i < margin; ++i) {
-      before[i] = closed ? value(count - margin + i) : 2 * value(0) - value(margin - i);
-      behind[i] = closed ? value(i) : 2 * value(count - 1) - value(count - 2 - i);
-    }
-    smoothed.resize(count + 2 * margin);
-    detail::smooth(padded_, kernel_, smoothed);
-  };
-  smooth_coordinate(&Pixel::y, rows_);
-  smooth_coordinate(&Pixel::x, columns_);
-  curvature_.resize(rows_.size());
+// A sharp bend by the angle t between rows of pixels has the curvature 2 g tan(t/2) / cos(t/2)
+// after smoothing by a Gaussian whose largest value is g.
+double CornerFinder::least_curvature() const {
+  const double half_turn = (180 - options_.max_angle_deg) / 2 * kRadians;
+  const double largest = 1 / (options_.sigma_px * std::sqrt(2 * std::numbers::pi));
+  return tuning_.least_share * 2 * largest * std::tan(half_turn) / std::cos(half_turn);
 }
 
-// The last sample of a plateau counts as the extremum.
-void CornerFinder::find_extrema() {
-  extrema_.clear();
-  bool rising = true;  // what ends the search for a minimum
-  for (std::size_t i = 0; i + 1 < curvature_.size(); ++i) {
-    const double step = curvature_[i + 1] - curvature_[i];
-    if (rising ? step > 0 : step < 0) {
-      extrema_.push_back(i);
-      rising = !rising;
-    }
-  }
-  if (extrema_.size() % 2 == 0) {
-    extrema_.push_back(curvature_.size() - 1);
-  }
-}
-
-// Maxima that stand out of their region of support, which runs to the nearest smallest curvature on
-// both sides (eq. 10). A maximum next to NaN stays: the comparison with it is false.
-void CornerFinder::find_candidates() {
+void CornerFinder::find_candidates(const Curve& curve) {
   candidates_.clear();
-  for (std::size_t i = 1; i + 1 < extrema_.size(); i += 2) {
-    const std::size_t at = extrema_[i];
-    const std::size_t left = at - steps_to_minimum(curvature_, at, extrema_[i - 1]);
-    const std::size_t right = at + steps_to_minimum(curvature_, at, extrema_[i + 1]);
-    const double threshold =
-        options_.curvature_ratio * mean(std::span(curvature_).subspan(left, right - left + 1));
-    if (!(curvature_[at] < threshold)) {
-      candidates_.push_back(at);
+  const Curvature curvature{curvature_, curve.closed};
+  const double least = least_curvature();
+  for (std::ptrdiff_t i = 0; i < curvature.count(); ++i) {
+    const double peak = curvature[i];
+    if (peak < least || peak == 0 || curvature[i - 1] >= peak || curvature[i + 1] > peak) {
+      continue;
     }
+    const auto last = last_peak_from(curvature, i, tuning_.saddle_share * peak);
+    if (!last) {
+      continue;
+    }
+    const std::ptrdiff_t left = (i + *last) / 2;
+    const std::ptrdiff_t right = (i + *last + 1) / 2;
+    const int side = larger_side(curvature, left, right);
+    candidates_.push_back(
+        {static_cast<std::size_t>(curvature.wrapped(left == right || side <= 0 ? left : right)),
+         static_cast<std::size_t>(curvature.wrapped(left == right || side >= 0 ? right : left))});
   }
+  std::sort(candidates_.begin(), candidates_.end(),
+            [](const Candidate& a, const Candidate& b) { return a.first < b.first; });
 }
 
-// Eq. 11, again and again: without its neighbour, a corner's arm is longer and its angle another.
-void CornerFinder::remove_wide_angles() {
-  const double widest = options_.max_angle_deg;
-  std::size_t before = 0;
+void CornerFinder::remove_near_ends(const Curve& curve) {
+  if (curve.closed) {
+    return;
+  }
+  const auto& pixels = curve.pixels;
+  const double distance_px = options_.end_distance_px;
+  const std::size_t front = samples_within(pixels.begin(), pixels.end(), distance_px);
+  const std::size_t back =
+      pixels.size() - 1 - samples_within(pixels.rbegin(), pixels.rend(), distance_px);
+  std::erase_if(candidates_, [=](const Candidate& candidate) {
+    return candidate.first <= front || candidate.last >= back;
+  });
+}
+
+// All at once, again and again: without its neighbour, a corner has a longer arm.
+void CornerFinder::remove_blunt(const Curve& curve) {
   do {
-    before = candidates_.size();
     sharp_.clear();
     for (std::size_t i = 0; i < candidates_.size(); ++i) {
-      const std::size_t first = i > 0 ? candidates_[i - 1] : 0;
-      const std::size_t last = i + 1 < candidates_.size() ? candidates_[i + 1] : rows_.size() - 1;
-      const double angle = detail::corner_angle_deg(
-          std::span(rows_).subspan(first, last - first + 1),
-          std::span(columns_).subspan(first, last - first + 1), candidates_[i] - first);
-      if (!(angle > widest && angle < 360 - widest)) {
+      const Arms arms = arms_of(curve, i);
+      if (stands_out(candidates_[i], arms) && is_sharp(curve, candidates_[i], arms)) {
         sharp_.push_back(candidates_[i]);
       }
     }
     candidates_.swap(sharp_);
-  } while (candidates_.size() != before);
+  } while (candidates_.size() != sharp_.size());
 }
 
-void CornerFinder::add_end_points(const ContourSet& contours, CornerSet& corners) {
-  const auto add_if_far = [&](Pixel end, std::size_t index) {
-    if (is_far_from_corners(end)) {
-      remember(end);
-      corners.indices.push_back(static_cast<std::uint32_t>(index));
-    }
+// Arms end at the neighbouring candidates and at the ends of the contour.
+CornerFinder::Arms CornerFinder::arms_of(const Curve& curve, std::size_t candidate) const {
+  const auto [first, last] = candidates_[candidate];
+  const std::size_t count = curve.pixels.size();
+  const std::size_t before = candidate == 0 ? candidates_.size() - 1 : candidate - 1;
+  const std::size_t after = candidate + 1 == candidates_.size() ? 0 : candidate + 1;
+  Arms arms{first, count - 1 - last};
+  if (curve.closed && before == candidate) {
+    arms = {(count - 1) / 2, (count - 1) / 2};
+  } else if (curve.closed || before < candidate) {
+    arms.before = (first + count - candidates_[before].last) % count;
+  }
+  if (before != candidate && (curve.closed || after > candidate)) {
+    arms.after = (candidates_[after].first + count - last) % count;
+  }
+  const auto longest =
+      static_cast<std::size_t>(std::lround(tuning_.arm_sigmas * options_.sigma_px));
+  return {std::min(arms.before, longest), std::min(arms.after, longest)};
+}
+
+// Eq. 10, with the arms as the region of support.
+bool CornerFinder::stands_out(const Candidate& candidate, const Arms& arms) const {
+  const std::size_t count = curvature_.size();
+  double before = 0;
+  for (std::size_t k = 1; k <= arms.before; ++k) {
+    before += curvature_[(candidate.first + count - k) % count];
+  }
+  double after = 0;
+  for (std::size_t k = 1; k <= arms.after; ++k) {
+    after += curvature_[(candidate.last + k) % count];
+  }
+  const double peak = curvature_[candidate.first];
+  const double mean =
+      (peak + (before + after)) / (1 + static_cast<double>(arms.before + arms.after));
+  return peak >= options_.curvature_ratio * mean;
+}
+
+// Eq. 11.
+bool CornerFinder::is_sharp(const Curve& curve, const Candidate& candidate,
+                            const Arms& arms) const {
+  const std::size_t count = curve.pixels.size();
+  const auto offset = [&](std::size_t from, std::size_t to) {
+    const Pixel a = curve.pixels[from];
+    const Pixel b = curve.pixels[to % count];
+    return Pixel{b.x - a.x, b.y - a.y};
   };
-  for (std::size_t i = 0; i < contours.items.size(); ++i) {
-    const auto pixels = contours.pixels(contours.items[i]);
-    const bool has_ends = options_.end_points && !contours.items[i].closed;
-    const auto first = static_cast<std::uint32_t>(corners.indices.size());
-    if (has_ends) {
-      add_if_far(pixels.front(), 0);
-    }
-    for (const std::uint32_t index : slice(std::as_const(inner_.indices), inner_.ranges[i])) {
-      corners.indices.push_back(index);
-    }
-    if (has_ends) {
-      add_if_far(pixels.back(), pixels.size() - 1);
-    }
-    corners.ranges.push_back({first, static_cast<std::uint32_t>(corners.indices.size()) - first});
-  }
+  const Vector before = tangent(arms.before, [&](std::size_t k) {
+    return offset(candidate.first, candidate.first + count - k);
+  });
+  const Vector after = tangent(
+      arms.after, [&](std::size_t k) { return offset(candidate.last, candidate.last + k); });
+  const double cosine = std::cos(options_.max_angle_deg * kRadians);
+  return dot(before, after) >= cosine * std::sqrt(dot(before, before) * dot(after, after));
 }
 
-void CornerFinder::remember(Pixel corner) {
-  found_.push_back({corner, last_in_row_[corner.y]});
-  last_in_row_[corner.y] = static_cast<std::int32_t>(found_.size()) - 1;
-}
-
-// A frame without any corner gets none: the fault of the public code.
-bool CornerFinder::is_far_from_corners(Pixel end) const {
-  const double distance_px = options_.end_distance_px;
-  const auto reach = static_cast<std::int32_t>(distance_px);
-  const auto rows = static_cast<std::int32_t>(last_in_row_.size());
-  for (std::int32_t row = std::max(end.y - reach, 0); row <= std::min(end.y + reach, rows - 1);
-       ++row) {
-    for (std::int32_t i = last_in_row_[row]; i != kNone; i = found_[i].next) {
-      if (static_cast<double>(squared_distance(found_[i].at, end)) <= distance_px * distance_px) {
-        return false;
-      }
+void CornerFinder::append(const Curve& curve, CornerSet& corners) const {
+  const std::size_t first = corners.indices.size();
+  const auto add = [&](std::size_t i) { corners.indices.push_back(static_cast<std::uint32_t>(i)); };
+  if (!curve.closed) {
+    add(0);
+  }
+  for (const Candidate& candidate : candidates_) {
+    add(candidate.first);
+    if (candidate.last != candidate.first) {
+      add(candidate.last);
     }
   }
-  return !found_.empty();
+  if (!curve.closed && curve.pixels.size() > 1) {
+    add(curve.pixels.size() - 1);
+  }
+  // Two samples of one corner can lie on both sides of the seam.
+  std::sort(corners.indices.begin() + static_cast<std::ptrdiff_t>(first), corners.indices.end());
+  corners.ranges.push_back({static_cast<std::uint32_t>(first),
+                            static_cast<std::uint32_t>(corners.indices.size() - first)});
 }
 
 }  // namespace thermedge

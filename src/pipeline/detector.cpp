@@ -10,6 +10,8 @@
 #include <vector>
 
 #include "thermedge/stages/contrast.hpp"
+#include "thermedge/stages/corners.hpp"
+#include "thermedge/stages/corners_paper.hpp"
 #include "thermedge/stages/gap_closing.hpp"
 #include "thermedge/stages/preprocessor.hpp"
 #include "thermedge/stages/subpixel.hpp"
@@ -90,6 +92,7 @@ struct Detector::Impl {
         tracer(chosen.contours),
         graph(chosen.graph),
         gap_closer(chosen.gap_closing),
+        paper_corner_finder(chosen.paper_corners),
         corner_finder(chosen.corners),
         linker(chosen.linking),
         scorer(chosen.scoring),
@@ -123,6 +126,7 @@ struct Detector::Impl {
   ContourTracer tracer;
   GraphTracer graph;
   GapCloser gap_closer;
+  PaperCornerFinder paper_corner_finder;
   CornerFinder corner_finder;
   Linker linker;
   Scorer scorer;
@@ -398,9 +402,12 @@ Status Detector::Impl::connect() {
 }
 
 Status Detector::Impl::find_corners() {
-  return corner_finder.run(linked.contours, corners).map([&] {
+  if (options.edges == EdgeMethod::kOriented) {
+    return corner_finder.run(linked.contours, corners);
+  }
+  return paper_corner_finder.run(linked.contours, corners).map([&] {
     if (options.linking.gap_px > 0) {
-      merge_seam_corners(linked.contours, options.corners.end_distance_px, corners);
+      merge_seam_corners(linked.contours, options.paper_corners.end_distance_px, corners);
     }
   });
 }

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "thermedge/stages/corners.hpp"
+#include "thermedge/stages/corners_paper.hpp"
 
 namespace thermedge {
 namespace {

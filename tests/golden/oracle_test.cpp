@@ -9,7 +9,7 @@
 #include "support/images.hpp"
 #include "support/oracle.hpp"
 #include "thermedge/stages/contours.hpp"
-#include "thermedge/stages/corners.hpp"
+#include "thermedge/stages/corners_paper.hpp"
 
 namespace thermedge::test {
 namespace {
@@ -24,10 +24,10 @@ ContourSet trace(const OracleMap& map) {
 }
 
 CornerSet find_corners(const ContourSet& contours, bool end_points) {
-  CornerOptions options;
+  PaperCornerOptions options;
   options.end_points = end_points;
   CornerSet corners;
-  EXPECT_TRUE(CornerFinder(options).run(contours, corners));
+  EXPECT_TRUE(PaperCornerFinder(options).run(contours, corners));
   return corners;
 }
 

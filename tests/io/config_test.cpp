@@ -67,8 +67,8 @@ INSTANTIATE_TEST_SUITE_P(
                   "robot.toml: line 2: contours.gap_px = 1.5 should be a whole number"},
         BadConfig{"[contours]\ngap_px = 99\n",
                   "robot.toml: contours.gap_px = 99 is out of range: 1 to 8"},
-        BadConfig{"[corners]\nend_points = 1\n",
-                  "robot.toml: line 2: corners.end_points = 1 should be true or false"},
+        BadConfig{"[paper_corners]\nend_points = 1\n",
+                  "robot.toml: line 2: paper_corners.end_points = 1 should be true or false"},
         BadConfig{"[scale]\ngain = nan\n",
                   "robot.toml: scale.gain = nan is out of range: 1e-06 to 1000"},
         BadConfig{"[denoise]\nmethod = \"magic\"\n",
@@ -97,12 +97,12 @@ TEST(Setting, SetsEachKindOfOption) {
   DetectorOptions options;
   EXPECT_TRUE(apply_setting("contours.gap_px=2", options));
   EXPECT_TRUE(apply_setting("linking.gap_px=0", options));
-  EXPECT_TRUE(apply_setting("corners.end_points=false", options));
+  EXPECT_TRUE(apply_setting("paper_corners.end_points=false", options));
   EXPECT_TRUE(apply_setting("denoise.method=gaussian", options));
   EXPECT_TRUE(apply_setting("denoise.bm3d.profile=fast", options));
   EXPECT_EQ(options.contours.gap_px, 2);
   EXPECT_EQ(options.linking.gap_px, 0.0);
-  EXPECT_FALSE(options.corners.end_points);
+  EXPECT_FALSE(options.paper_corners.end_points);
   EXPECT_EQ(options.denoise.method, DenoiseMethod::kGaussian);
   EXPECT_EQ(options.denoise.bm3d.profile, Bm3dProfile::kFast);
 }

@@ -1,5 +1,4 @@
-// Corners of curves by global and local curvature properties (GLCP; paper Algorithm 4, eqs. 9-13;
-// He & Yung 2004, 2008).
+// Corners of contours: points at which the direction of a contour jumps.
 #pragma once
 
 #include <cstddef>
@@ -13,12 +12,22 @@
 namespace thermedge {
 
 struct CornerOptions {
-  double sigma_px = 3;           // Gaussian that smooths the curve before curvature, 0.5..10 px
-  double curvature_ratio = 1.5;  // R: a corner is sharper than R times the mean of its region, >= 1
-  double max_angle_deg = 162;    // wider angles are no corners (eq. 11), 90..180
-  bool end_points = true;        // the ends of open curves are corners too ...
-  double end_distance_px = 5;    // ... where farther than this from every other corner, px; as
-                                 // near, two corners at the seam of a linked loop are one
+  double sigma_px = 3;           // Gaussian that smooths the contour before curvature, 0.5..10 px
+  double curvature_ratio = 1.5;  // a corner is sharper than this times the mean of its arms, >= 1
+  double max_angle_deg = 150;    // wider angles between the two arms are no corners, 90..180
+  double end_distance_px = 5;    // a corner no farther than this from an end of its open contour,
+                                 // along it, is left out: the end stands for it, px
+};
+
+// Chosen on drawn squares, bends, ellipses and rounded rectangles at all angles and on the squares
+// of a calibration board (docs/tuning.md).
+struct CornerTuning {
+  double arm_sigmas = 4.5;  // length of an arm in units of sigma_px. A longer one sees neighbouring
+                            // shapes, a shorter one the steps between pixels.
+  double saddle_share = 0.5;  // on both sides of a corner the curvature falls to this share of it
+                              // before it rises above it, 0..1
+  double least_share = 0.5;   // least curvature of a corner, as a share of that of a sharp bend by
+                              // max_angle_deg along a row of pixels, 0..1
 };
 
 // Indices into the points of their contour, ascending; one Range per contour.
@@ -28,51 +37,65 @@ struct CornerSet {
   void clear();
 };
 
-// The corner finder that the paper used, to the letter: smoothing over 12 samples to each side
-// (sigma 3) with zero-padded margins, central differences, K = ceil(100 K) / 100, adaptive
-// threshold over the region of support, angle between tangents, ends added against the corners of
-// the whole frame. docs/paper_map.md lists the known faults, which are kept.
-// Corners depend on the last bit here: coordinates count from 1 and come in the order (row,
-// column), and sums run in the order of that code, which is why the same corners come out. One
-// object per thread; allocates on the first frame of a size only.
+// The corners of each contour, of that contour alone. The first and the last point of an open
+// contour are always corners. In between, and on closed contours, which have no ends and may have
+// no corner at all, a corner is a peak of the smoothed contour's curvature (eq. 9) that stands out
+// of the samples around it, and where the tangents of the two arms enclose a sharp angle.
+//
+// Contours that are shifted, mirrored, transposed, walked backwards or, if closed, begun elsewhere
+// have the same pixels as corners, exactly: sums are sums of whole numbers or run outwards from
+// the corner, equally on both sides. Of equal peaks without a saddle between them the middle is the
+// corner. Where the middle lies between two samples, the one on the side of the larger curvature
+// is; on a contour that is symmetric about that place, both are.
+//
+// Paper: Algorithm 4; differs: PaperCornerFinder is the paper's own rule with its faults.
+// One object per thread; allocates on the first frame of a size only.
 class CornerFinder {
  public:
-  explicit CornerFinder(const CornerOptions& options) : options_(options) {}
+  explicit CornerFinder(const CornerOptions& options, const CornerTuning& tuning = {})
+      : options_(options), tuning_(tuning) {}
 
-  // `corners` is cleared first. Coordinates of pixels must not be negative.
+  // `corners` is cleared first. Coordinates: -2^29 .. 2^29.
   // Errors: an option out of range.
   [[nodiscard]] Status run(const ContourSet& contours, CornerSet& corners);
 
  private:
+  struct Curve {
+    std::span<const Pixel> pixels;
+    bool closed;
+  };
+  // Samples that stand for one corner: the same twice, or two neighbours that nothing tells apart.
+  struct Candidate {
+    std::size_t first, last;
+  };
+  // Numbers of samples.
+  struct Arms {
+    std::size_t before, after;
+  };
+
   void prepare(const ContourSet& contours, CornerSet& corners);
-  void find_curvature_corners(const ContourSet& contours);
-  void smooth_curve(std::span<const Pixel> pixels, bool closed);
-  void find_extrema();
-  void find_candidates();
-  void remove_wide_angles();
-  void add_end_points(const ContourSet& contours, CornerSet& corners);
-  void remember(Pixel corner);
-  [[nodiscard]] bool is_far_from_corners(Pixel end) const;
+  void set_kernel();
+  void smooth_steps(const Curve& curve, std::int32_t Pixel::*coordinate,
+                    std::vector<double>& smoothed);
+  void find_curvature(const Curve& curve);
+  [[nodiscard]] double least_curvature() const;
+  void find_candidates(const Curve& curve);
+  void remove_near_ends(const Curve& curve);
+  void remove_blunt(const Curve& curve);
+  [[nodiscard]] Arms arms_of(const Curve& curve, std::size_t candidate) const;
+  [[nodiscard]] bool stands_out(const Candidate& candidate, const Arms& arms) const;
+  [[nodiscard]] bool is_sharp(const Curve& curve, const Candidate& candidate,
+                              const Arms& arms) const;
+  void append(const Curve& curve, CornerSet& corners) const;
 
   CornerOptions options_;
-  std::vector<double> kernel_;
-  // Samples of one curve, with a margin of half a kernel at both ends; padded_ has twice that.
-  std::vector<double> padded_, rows_, columns_, curvature_;
-  std::vector<std::size_t> extrema_;  // samples: minima at even places, maxima at odd ones
-  std::vector<std::size_t> candidates_, sharp_;
-  CornerSet inner_;  // corners without the ends
-  // All corners of the frame so far, chained by row for the search around an end; -1 ends a chain.
-  struct Found {
-    Pixel at;
-    std::int32_t next;
-  };
-  std::vector<Found> found_;
-  std::vector<std::int32_t> last_in_row_;
+  CornerTuning tuning_;
+  std::vector<double> kernel_;  // whole numbers
+  double kernel_sum_ = 0;
+  std::vector<double> padded_;             // steps from sample to sample, with margins
+  std::vector<double> x_steps_, y_steps_;  // smoothed: [i] leads from sample i - 1 to sample i
+  std::vector<double> curvature_;          // 1/px
+  std::vector<Candidate> candidates_, sharp_;
 };
-
-// Makes one of two corners of a closed curve that lie on both sides of its seam, at most
-// `distance_px` apart along it: the later one goes. The public code reports such a corner twice.
-// Paper: Algorithm 5, type 3 (a loop has no ends). `corners` belongs to `contours`. Thread-safe.
-void merge_seam_corners(const ContourSet& contours, double distance_px, CornerSet& corners);
 
 }  // namespace thermedge
