@@ -92,13 +92,14 @@ Status GraphTracer::run(ImageView<const std::uint8_t> edges, ImageView<const flo
   if (edges.size() > std::size_t{1} << 30U) {
     return failure(ErrorCode::kLimitExceeded, "edge map: more than 2^30 pixels");
   }
+  strength_ = response;
   prepare(edges, curves);
-  thin(response);
+  thin();
   find_neighbours();
   find_junctions();
   find_segments();
   join_segments();
-  through_.assign(junctions_.size(), kNone);
+  through_.assign(junctions_.size(), {kNone, kNone});
   used_.assign(segments_.size(), 0);
   for (std::size_t end = 0; end < ends_.size(); ++end) {
     if (ends_[end].partner == kNone && used_[end / 2] == 0) {
@@ -132,6 +133,7 @@ void GraphTracer::prepare(ImageView<const std::uint8_t> edges, LinkedContours& c
   ends_at_.reserve(most + 2);
   ends_of_junction_.reserve(most / 4 + 1);
   through_.reserve(most / 4 + 1);
+  passed_.reserve(most / 2 + 1);
   pairs_.reserve(most / 4 + 1);
   const std::size_t most_curves =
       most / static_cast<std::size_t>(std::max(options_.min_length_px, 1)) + 1;
@@ -155,9 +157,14 @@ Pixel GraphTracer::position(std::int32_t pixel) const {
   return {pixel % stride - 1, pixel / stride - 1};
 }
 
+float GraphTracer::strength_at(std::int32_t pixel) const {
+  const Pixel at = position(pixel);
+  return strength_(at.x, at.y);
+}
+
 // Round by round, the weakest first. Only what lies beside a pixel that went can have become
 // superfluous since it was looked at.
-void GraphTracer::thin(ImageView<const float> response) {
+void GraphTracer::thin() {
   const std::uint8_t* const map = map_.row(0);
   std::vector<std::int32_t>& affected = pixels_;
   affected.assign(order_.begin(), order_.end());
@@ -169,8 +176,7 @@ void GraphTracer::thin(ImageView<const float> response) {
     for (const std::int32_t pixel : affected) {
       label_[static_cast<std::size_t>(pixel)] = kNone;
       if (map[pixel] != 0 && kSuperfluous[set_around(map + pixel, map_.stride())]) {
-        const Pixel at = position(pixel);
-        candidates_.push_back({response(at.x, at.y), pixel});
+        candidates_.push_back({strength_at(pixel), pixel});
       }
     }
     std::sort(candidates_.begin(), candidates_.end(), [](const Candidate& a, const Candidate& b) {
@@ -315,8 +321,8 @@ void GraphTracer::add_segment(std::int32_t seed) {
                     std::popcount(unsigned{neighbours_.row(0)[front]}) == 2;
   segments_.push_back({static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(count)});
   const auto self = static_cast<std::int32_t>(ends_.size());
-  ends_.push_back({front_junction, loop ? self + 1 : kNone});
-  ends_.push_back({back_junction, loop ? self : kNone});
+  ends_.push_back({front_junction, loop ? self + 1 : kNone, kNone});
+  ends_.push_back({back_junction, loop ? self : kNone, kNone});
 }
 
 std::int32_t GraphTracer::pixel_at(std::int32_t end) const {
@@ -324,7 +330,8 @@ std::int32_t GraphTracer::pixel_at(std::int32_t end) const {
   return end % 2 == 0 ? pixels.front() : pixels.back();
 }
 
-// At each junction, the smoothest pair first.
+// At each junction, the smoothest pair first; of those that turn as much, the strongest. Directions
+// between pixels are often equal.
 void GraphTracer::join_segments() {
   constexpr std::size_t kDirectionPixels = 8;
   const auto direction = [&](std::int32_t end) {
@@ -367,32 +374,45 @@ void GraphTracer::join_segments() {
         const auto b = direction(ends[k]);
         const double smoothness = -(a.first * b.first + a.second * b.second);
         if (smoothness >= least) {
-          pairs_.push_back({smoothness, ends[i], ends[k]});
+          const float response = strength_at(pixel_at(ends[i])) + strength_at(pixel_at(ends[k]));
+          pairs_.push_back({smoothness, response, ends[i], ends[k]});
         }
       }
     }
     std::sort(pairs_.begin(), pairs_.end(), [](const Pair& a, const Pair& b) {
-      return std::tie(b.smoothness, a.a, a.b) < std::tie(a.smoothness, b.a, b.b);
+      return std::tie(b.smoothness, b.response, a.a, a.b) <
+             std::tie(a.smoothness, a.response, b.a, b.b);
     });
-    for (const Pair& pair : pairs_) {
+    for (std::size_t i = 0; i < pairs_.size(); ++i) {
+      const Pair& pair = pairs_[i];
       End& a = ends_[static_cast<std::size_t>(pair.a)];
       End& b = ends_[static_cast<std::size_t>(pair.b)];
       if (a.partner == kNone && b.partner == kNone) {
         a.partner = pair.b;
         b.partner = pair.a;
+        a.place = b.place = static_cast<std::int32_t>(i);
       }
     }
   }
 }
 
-// The pixel of a junction with the smallest squared distances from `a` and `b` together.
+// The pixel of a junction with the smallest squared distances from `a` and `b` together; of those
+// as near, the strongest.
 std::int32_t GraphTracer::nearest_of_junction(std::int32_t junction, Pixel a, Pixel b) const {
   const auto pixels = slice(junction_pixels_, junctions_[static_cast<std::size_t>(junction)]);
   return *std::min_element(pixels.begin(), pixels.end(), [&](std::int32_t p, std::int32_t q) {
-    const auto far = [&](std::int32_t pixel) {
-      return squared_distance(position(pixel), a) + squared_distance(position(pixel), b);
+    const auto order = [&](std::int32_t pixel) {
+      return std::pair{squared_distance(position(pixel), a) + squared_distance(position(pixel), b),
+                       -strength_at(pixel)};
     };
-    return far(p) < far(q);
+    return order(p) < order(q);
+  });
+}
+
+std::int32_t GraphTracer::strongest_of_junction(std::size_t junction) const {
+  const auto pixels = slice(junction_pixels_, junctions_[junction]);
+  return *std::max_element(pixels.begin(), pixels.end(), [&](std::int32_t p, std::int32_t q) {
+    return strength_at(p) < strength_at(q);
   });
 }
 
@@ -407,6 +427,7 @@ void GraphTracer::append_curve(std::int32_t start, LinkedContours& curves) {
   const auto append_junction = [&](std::int32_t junction, Pixel a, Pixel b) {
     points.push_back(position(nearest_of_junction(junction, a, b)));
   };
+  passed_.clear();
   bool closed = false;
   const bool ring = ends_[static_cast<std::size_t>(start)].partner != kNone;
   if (!ring && junction_of(start) != kNone) {
@@ -428,6 +449,9 @@ void GraphTracer::append_curve(std::int32_t start, LinkedContours& curves) {
     const Pixel at = position(pixel_at(far));
     if (junction_of(far) != kNone) {
       append_junction(junction_of(far), at, next == kNone ? at : position(pixel_at(next)));
+      if (next != kNone) {
+        passed_.push_back(far);
+      }
     }
     if (next == kNone || used_[static_cast<std::size_t>(next / 2)] != 0) {
       closed = next != kNone;
@@ -442,12 +466,11 @@ void GraphTracer::append_curve(std::int32_t start, LinkedContours& curves) {
   }
   curves.contours.items.push_back(
       {{static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(count)}, closed});
-  // Remember who goes through the junctions.
-  for (std::size_t i = 1; i + 1 < count; ++i) {
-    const Pixel at = points[first + i];
-    const std::int32_t junction = label_at(at);
-    if (junction >= 0) {
-      through_[static_cast<std::size_t>(junction)] = number;
+  for (const std::int32_t end : passed_) {
+    const auto& [junction, partner, place] = ends_[static_cast<std::size_t>(end)];
+    Passage& passage = through_[static_cast<std::size_t>(junction)];
+    if (passage.curve == kNone || place < passage.place) {
+      passage = {number, place};
     }
   }
 }
@@ -468,9 +491,8 @@ void GraphTracer::close_curves(LinkedContours& curves) const {
 // Ends at a junction that another curve goes through are connected with it.
 void GraphTracer::connect_ends(LinkedContours& curves) {
   for (std::size_t i = 0; i < junctions_.size(); ++i) {
-    if (through_[i] != kNone) {
-      curves.contours.junctions.push_back(
-          {position(slice(junction_pixels_, junctions_[i]).front())});
+    if (through_[i].curve != kNone) {
+      curves.contours.junctions.push_back({position(strongest_of_junction(i))});
     }
   }
   for (std::uint32_t i = 0; i < curves.contours.items.size(); ++i) {
@@ -482,7 +504,7 @@ void GraphTracer::connect_ends(LinkedContours& curves) {
     for (const Pixel end : {pixels.front(), pixels.back()}) {
       const std::int32_t junction = label_at(end);
       const std::int32_t other =
-          junction >= 0 ? through_[static_cast<std::size_t>(junction)] : kNone;
+          junction >= 0 ? through_[static_cast<std::size_t>(junction)].curve : kNone;
       if (other != kNone && other != static_cast<std::int32_t>(i)) {
         curves.links.push_back(
             {LinkType::kEndToMiddle, i, static_cast<std::uint32_t>(other), end, end});

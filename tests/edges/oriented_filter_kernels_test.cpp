@@ -9,13 +9,16 @@
 #include <vector>
 
 #include "support/images.hpp"
+#include "support/sentinel_row.hpp"
 
 namespace thermedge {
 namespace {
 
 using test::for_each_simd_target;
 using test::noise_image;
+using test::SentinelRow;
 
+const std::vector<int> kCounts = {1, 2, 3, 7, 8, 9, 15, 16, 17, 31, 32, 33, 70, 200};
 constexpr int kMargin = 12;
 constexpr double kStep = std::numbers::pi / 12;
 
@@ -80,6 +83,40 @@ TEST(OrientedKernels, RidgesAreNotBelowWhatLiesAcross) {
   }
 }
 
+// Of equal neighbours the pixel ahead of an edge is none; whole numbers are often equal.
+TEST(OrientedKernels, RidgesOfEqualStrengthAreOnePixelWide) {
+  constexpr int kCount = 400;
+  Image<float> response(kCount + 2 * kMargin, 2 * kMargin + 1);
+  const auto levels = noise_image<std::uint8_t>(response.width(), response.height(), 2, 0.8, 15);
+  copy_pixels(levels.view(), response.view());
+  const auto direction = directions(response.width(), response.height(), 16);
+  std::vector<std::int32_t> expected;
+  int ties = 0;
+  for (int x = 0; x < kCount; ++x) {
+    const int own = direction(x + kMargin, kMargin);
+    if (own % 6 != 0 && own % 6 != 3) {
+      continue;  // between pixels the share decides, and nothing is equal
+    }
+    const double at = response(x + kMargin, kMargin);
+    const double ahead = across(response, x + kMargin, kMargin, own, 1);
+    const double behind = across(response, x + kMargin, kMargin, own, -1);
+    ties += at == ahead || at == behind ? 1 : 0;
+    if (at > 1 && at >= ahead && at > behind) {
+      expected.push_back(x);
+    }
+  }
+  ASSERT_GT(ties, 20);
+  for_each_simd_target([&](const std::string&) {
+    std::vector<std::int32_t> places(kCount + 64);
+    const int found = detail::find_ridges_row(response.row(kMargin) + kMargin, response.stride(),
+                                              direction.row(kMargin) + kMargin, shares(), 1, kCount,
+                                              places.data());
+    places.resize(static_cast<std::size_t>(found));
+    std::erase_if(places, [&](std::int32_t x) { return direction(x + kMargin, kMargin) % 3 != 0; });
+    EXPECT_EQ(places, expected);
+  });
+}
+
 TEST(OrientedKernels, ProminenceIsOverTheLowerPairOfSides) {
   constexpr int kWidth = 120;
   constexpr int kHalf = 8;
@@ -121,6 +158,103 @@ TEST(OrientedKernels, ProminenceIsOverTheLowerPairOfSides) {
       });
     }
   }
+}
+
+// The same additions in the same order, so the same bits.
+TEST(OrientedKernels, OddFiltersAreWeightedSumsOfDifferences) {
+  const float weights[] = {0, 0.9F, 0.41F, 0.13F, 0.027F, 0.004F};
+  const auto in = noise_image<float>(200 + 2 * kMargin, 2 * kMargin + 1, 3000, 40, 21);
+  const float* centre = in.row(kMargin) + kMargin;
+  for (const int count : kCounts) {
+    for (const int radius : {0, 1, 2, 5}) {
+      for (const std::ptrdiff_t step : {std::ptrdiff_t{1}, in.stride()}) {
+        for_each_simd_target([&](const std::string&) {
+          SentinelRow<float> out(count, detail::kFilterSlack);
+          detail::odd_filter_row(centre, step, weights, radius, count, out.data());
+          for (int x = 0; x < count; ++x) {
+            float sum = 0;
+            for (int k = 1; k <= radius; ++k) {
+              sum += weights[k] * (centre[x + k * step] - centre[x - k * step]);
+            }
+            ASSERT_EQ(out[x], sum) << x << " of " << count;
+          }
+          ASSERT_TRUE(out.intact());
+        });
+      }
+    }
+  }
+}
+
+TEST(OrientedKernels, MagnitudesAndProjections) {
+  const auto gradients = noise_image<float>(200, 2, 0, 9, 22);
+  const float* gx = gradients.row(0);
+  const float* gy = gradients.row(1);
+  for (const int count : kCounts) {
+    for_each_simd_target([&](const std::string&) {
+      SentinelRow<float> magnitude(count, detail::kFilterSlack);
+      SentinelRow<float> projected(count, detail::kFilterSlack);
+      detail::magnitude_row(gx, gy, count, magnitude.data());
+      detail::project_row(gx, gy, -0.3F, 0.7F, count, projected.data());
+      for (int x = 0; x < count; ++x) {
+        const float squares = gx[x] * gx[x] + gy[x] * gy[x];
+        ASSERT_EQ(magnitude[x], std::sqrt(squares)) << x << " of " << count;
+        ASSERT_EQ(projected[x], -0.3F * gx[x] + 0.7F * gy[x]) << x << " of " << count;
+      }
+      ASSERT_TRUE(magnitude.intact() && projected.intact());
+    });
+  }
+}
+
+// Line after line over the same row, as the filter does it. Whole numbers make sums that are equal:
+// the first direction of equal ones stays.
+TEST(OrientedKernels, TheStrongestLineIsKept) {
+  constexpr int kLines = 12;
+  const float weights[] = {1, 0.75F, 0.5F, 0.25F};
+  Image<float> in(200 + 2 * kMargin, 2 * kMargin + 1);
+  const auto levels = noise_image<std::int32_t>(in.width(), in.height(), 100, 1.5, 23);
+  for (int y = 0; y < in.height(); ++y) {
+    std::transform(levels.row(y), levels.row(y) + in.width(), in.row(y),
+                   [](std::int32_t v) { return static_cast<float>(v - 100); });
+  }
+  const float* centre = in.row(kMargin) + kMargin;
+  const auto offset = [&](int line, int k) {
+    return static_cast<std::ptrdiff_t>(std::lround(k * std::sin(line * kStep))) * in.stride() +
+           std::lround(k * std::cos(line * kStep));
+  };
+  int ties = 0;
+  for (const int count : kCounts) {
+    for (const int radius : {0, 3}) {
+      for_each_simd_target([&](const std::string&) {
+        SentinelRow<float> response(count, detail::kFilterSlack);
+        SentinelRow<std::int32_t> direction(count, detail::kFilterSlack);
+        std::vector<float> largest(static_cast<std::size_t>(count), -1);
+        std::vector<std::int32_t> whose(largest.size());
+        for (int line = 0; line < kLines; ++line) {
+          const std::ptrdiff_t offsets[] = {0, offset(line, 1), offset(line, 2), offset(line, 3)};
+          detail::keep_stronger_row(centre, offsets, weights, radius, line, kLines, count,
+                                    response.data(), direction.data());
+          for (int x = 0; x < count; ++x) {
+            float sum = weights[0] * centre[x];
+            for (int k = 1; k <= radius; ++k) {
+              sum += weights[k] * (centre[x + offsets[k]] + centre[x - offsets[k]]);
+            }
+            float& before = largest[static_cast<std::size_t>(x)];
+            ties += std::abs(sum) == before ? 1 : 0;
+            if (std::abs(sum) > before) {
+              before = std::abs(sum);
+              whose[static_cast<std::size_t>(x)] = sum < 0 ? line + kLines : line;
+            }
+          }
+        }
+        for (int x = 0; x < count; ++x) {
+          ASSERT_EQ(response[x], largest[static_cast<std::size_t>(x)]) << x << " of " << count;
+          ASSERT_EQ(direction[x], whose[static_cast<std::size_t>(x)]) << x << " of " << count;
+        }
+        ASSERT_TRUE(response.intact() && direction.intact());
+      });
+    }
+  }
+  EXPECT_GT(ties, 100);
 }
 
 }  // namespace

@@ -66,7 +66,9 @@ RecordingReport report_with_every_suggestion() {
 TEST(ProbeFile, SuggestionsAreTakenByTheDetector) {
   const auto report = report_with_every_suggestion();
   ASSERT_EQ(report.suggested.size(), 5U);
-  DetectorOptions options;
+  // Of the presets, `paper` has none of the suggested values already.
+  const DetectorOptions before = preset_options(Preset::kPaper);
+  DetectorOptions options = before;
   const Status status = parse_config(suggested_toml(report), "probe.toml", options);
   ASSERT_TRUE(status) << status.error().message;
   EXPECT_EQ(options.scale.gain, 0.05);
@@ -74,8 +76,13 @@ TEST(ProbeFile, SuggestionsAreTakenByTheDetector) {
   EXPECT_EQ(options.nuc.threshold_sigmas, 12);
   EXPECT_EQ(options.contours.min_component_px, 21);
   EXPECT_TRUE(options.nuc.stripes);
+  EXPECT_NE(before.scale.gain, 0.05);
+  EXPECT_NE(before.denoise.sigma_counts, 9.6);
+  EXPECT_NE(before.nuc.threshold_sigmas, 12);
+  EXPECT_NE(before.contours.min_component_px, 21);
+  EXPECT_FALSE(before.nuc.stripes);
   EXPECT_TRUE(check_options(options));
-  DetectorOptions set;
+  DetectorOptions set = before;
   for (const SuggestedOption& option : report.suggested) {
     EXPECT_TRUE(apply_setting(option.name + "=" + option.value, set)) << option.name;
   }

@@ -25,7 +25,7 @@ class Program : public testing::Test {
 
   // Small and quick: 96x72 without a slow denoiser.
   static constexpr const char* kScene = "'sim:desk?width=96&height=72'";
-  static constexpr const char* kQuick = " --denoise gaussian --set contours.min_component_px=10 ";
+  static constexpr const char* kQuick = " --denoise gaussian ";
 
   TemporaryDirectory temporary_;
   const fs::path& directory_ = temporary_.path();
@@ -81,6 +81,31 @@ TEST_F(Program, JsonHasWhatIsPromised) {
   EXPECT_TRUE(json["stats"]["ms"].contains("denoise"));
 }
 
+// The paper's own way: ranked by the edge score, the smallest first, and options of its stages
+// work.
+TEST_F(Program, PresetPaperGoesItsOwnWay) {
+  const std::string detect =
+      std::string("detect ") + kScene + " --preset paper --denoise gaussian ";
+  const auto edges = [&](const std::string& arguments) {
+    EXPECT_EQ(run(arguments + " -o x.json").exit_code, 0) << arguments;
+    const auto json = nlohmann::json::parse(file_text(directory_ / "x.json"));
+    EXPECT_EQ(json["preset"], "paper");
+    return json["edges"];
+  };
+  const auto all = edges(detect + "--set contours.min_component_px=10");
+  ASSERT_GT(all.size(), 3U);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    EXPECT_EQ(all[i]["score"], all[i]["es"]);
+    EXPECT_TRUE(i == 0 || all[i - 1]["es"] <= all[i]["es"]) << i;
+  }
+  EXPECT_LT(edges(detect + "--set contours.min_component_px=100").size(), all.size());
+  ASSERT_EQ(run(detect + "-o map.png").exit_code, 0);
+  const auto traced = edges("trace map.png --preset paper");
+  ASSERT_FALSE(traced.empty());
+  EXPECT_TRUE(traced[0]["z"].is_null());
+  EXPECT_TRUE(edges("trace map.png --preset paper --set contours.min_component_px=5000").empty());
+}
+
 TEST_F(Program, JsonLinesGoToStandardOutput) {
   const auto result =
       run("detect 'sim:desk?width=96&height=72&frames=2' -o -" + std::string(kQuick));
@@ -103,10 +128,7 @@ TEST_F(Program, GoesOnAfterABadFileAndExitsWith1) {
 
 TEST_F(Program, TraceTakesAnEdgeMapAndMeasuresNoContrast) {
   ASSERT_EQ(run(std::string("detect ") + kScene + kQuick + "-o map.png").exit_code, 0);
-  ASSERT_EQ(run("trace map.png --set contours.min_component_px=0 --set linking.gap_px=0 "
-                "--keep 0 -o x.json")
-                .exit_code,
-            0);
+  ASSERT_EQ(run("trace map.png -o x.json").exit_code, 0);
   const auto json = nlohmann::json::parse(file_text(directory_ / "x.json"));
   ASSERT_GT(json["edges"].size(), 0U);
   EXPECT_TRUE(json["edges"][0]["z"].is_null());

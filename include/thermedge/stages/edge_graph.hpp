@@ -44,9 +44,11 @@ class GraphTracer {
   struct End {
     std::int32_t junction;  // that it touches, -1: none
     std::int32_t partner;   // end that it goes on with, -1: none
+    std::int32_t place;     // of this pair among those of the junction, the smoothest first
   };
   struct Pair {
     double smoothness;  // cosine of the turn
+    float response;     // of the two pixels together, for turns that are equal
     std::int32_t a, b;  // ends
   };
 
@@ -57,7 +59,7 @@ class GraphTracer {
     std::int32_t pixel;
   };
 
-  void thin(ImageView<const float> response);
+  void thin();
   void take_off_candidates();
   void find_neighbours();
   void find_junctions();
@@ -72,15 +74,18 @@ class GraphTracer {
   }
   [[nodiscard]] std::int32_t pixel_at(std::int32_t end) const;
   [[nodiscard]] Pixel position(std::int32_t pixel) const;
+  [[nodiscard]] float strength_at(std::int32_t pixel) const;
   [[nodiscard]] std::int32_t label_at(Pixel at) const {
     return label_[static_cast<std::size_t>((at.y + 1) * map_.stride() + at.x + 1)];
   }
   [[nodiscard]] std::int32_t nearest_of_junction(std::int32_t junction, Pixel a, Pixel b) const;
   void append_curve(std::int32_t start, LinkedContours& curves);
+  [[nodiscard]] std::int32_t strongest_of_junction(std::size_t junction) const;
   void close_curves(LinkedContours& curves) const;
   void connect_ends(LinkedContours& curves);
 
   GraphOptions options_;
+  ImageView<const float> strength_;   // of this run
   Image<std::uint8_t> map_;           // with a border of 1 pixel; 1: edge
   Image<std::uint8_t> neighbours_;    // a bit for each step to a connected pixel
   std::vector<std::int32_t> label_;   // junction of a pixel, or what has become of it
@@ -95,7 +100,13 @@ class GraphTracer {
   std::vector<std::int32_t> ends_at_;    // ends by junction
   std::vector<Range> ends_of_junction_;  // in ends_at_
   std::vector<Pair> pairs_;              // of one junction
-  std::vector<std::int32_t> through_;    // a curve that goes through each junction, -1: none
+  // The curve that goes through each junction most smoothly, -1: none.
+  struct Passage {
+    std::int32_t curve;
+    std::int32_t place;  // of its pair of ends
+  };
+  std::vector<Passage> through_;
+  std::vector<std::int32_t> passed_;  // ends by which a curve enters junctions
 };
 
 }  // namespace thermedge

@@ -1,0 +1,223 @@
+// What each stage of preset robust makes of two simulated frames, as hashes: the first stage that
+// differs is the one that changed. A test that fails prints the new table.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "support/hash.hpp"
+#include "thermedge/detector.hpp"
+#include "thermedge/sim/scene.hpp"
+
+namespace thermedge {
+namespace {
+
+using test::Hash;
+
+using StageHashes = std::vector<std::pair<std::string, std::uint64_t>>;
+
+constexpr double kRelative = 1e-6;  // steps of what is rounded
+constexpr double kPixel = 1e-3;
+
+std::uint64_t noise_hash(const Detection& found) {
+  return Hash()
+      .add_rounded(found.noise.sigma_counts, kRelative)
+      .add_rounded(found.noise.column_sigma_counts, kRelative)
+      .add_rounded(found.noise.row_sigma_counts, kRelative)
+      .add_rounded(found.sigma_counts, kRelative)
+      .add_rounded(found.range_counts, kRelative)
+      .add_rounded(found.unit_counts, kRelative)
+      .value();
+}
+
+std::uint64_t dead_pixels_hash(const Detection& found) {
+  Hash hash;
+  for (const BadPixel& pixel : found.bad_pixels) {
+    hash.add(pixel.x).add(pixel.y);
+  }
+  return hash.value();
+}
+
+std::uint64_t stripes_hash(const Detection& found) {
+  Hash hash;
+  for (const auto* offsets : {&found.stripes->columns, &found.stripes->rows}) {
+    hash.add(offsets->size());
+    for (const float offset : *offsets) {
+      hash.add_rounded(static_cast<double>(offset), 1e-4);
+    }
+  }
+  return hash.value();
+}
+
+void add_contours(const ContourSet& set, Hash& hash) {
+  hash.add(set.items.size()).add(set.junctions.size());
+  for (const Contour& contour : set.items) {
+    hash.add(contour.closed).add(contour.points.count);
+    for (const Pixel pixel : set.pixels(contour)) {
+      hash.add(pixel);
+    }
+  }
+  for (const Junction& junction : set.junctions) {
+    hash.add(junction.at);
+  }
+}
+
+std::uint64_t contours_hash(const Detection& found) {
+  Hash hash;
+  add_contours(*found.contours, hash);
+  return hash.value();
+}
+
+std::uint64_t linked_hash(const Detection& found) {
+  Hash hash;
+  add_contours(found.linked->contours, hash);
+  for (const Link& link : found.linked->links) {
+    hash.add(static_cast<int>(link.type)).add(link.a).add(link.b).add(link.from).add(link.to);
+  }
+  return hash.value();
+}
+
+std::uint64_t corners_hash(const Detection& found) {
+  Hash hash;
+  for (const Edge& edge : found.edges.edges) {
+    hash.add(edge.corners.count);
+    for (const std::uint32_t corner : found.edges.corners_of(edge)) {
+      hash.add(corner);
+    }
+  }
+  return hash.value();
+}
+
+std::uint64_t scores_hash(const Detection& found) {
+  Hash hash;
+  for (const Edge& edge : found.edges.edges) {
+    hash.add(edge.edgels.count).add(edge.closed);
+    hash.add_rounded(edge.score, kRelative).add_rounded(edge.length_px, kRelative);
+    for (const std::int32_t other : found.edges.connections_of(edge)) {
+      hash.add(other);
+    }
+  }
+  return hash.value();
+}
+
+std::uint64_t significance_hash(const Detection& found) {
+  Hash hash;
+  for (const Edge& edge : found.edges.edges) {
+    hash.add_rounded(edge.contrast_counts, kRelative);
+    hash.add_rounded(edge.z, kRelative).add_rounded(edge.log10_nfa, kRelative);
+  }
+  return hash.value();
+}
+
+std::uint64_t positions_hash(const Detection& found) {
+  const Edgels& edgels = found.edges.edgels;
+  Hash hash;
+  for (std::size_t i = 0; i < edgels.size(); ++i) {
+    for (const auto* values : {&edgels.x, &edgels.y, &edgels.nx, &edgels.ny,
+                               &edgels.magnitude_counts, &edgels.position_sigma_px}) {
+      hash.add_rounded(static_cast<double>((*values)[i]), kPixel);
+    }
+  }
+  return hash.value();
+}
+
+std::uint64_t selection_hash(const Detection& found) {
+  Hash hash;
+  hash.add(found.edges.kept);
+  for (const Edge& edge : found.edges.edges) {
+    hash.add(static_cast<int>(edge.status)).add(edge.kept).add(edge.rank);
+  }
+  for (const Junction& junction : found.edges.junctions) {
+    hash.add(junction.at);
+  }
+  return hash.value();
+}
+
+StageHashes hashes_of(ImageView<const std::uint16_t> counts, const Detection& found) {
+  return {{"frame", Hash().add_pixels(counts).value()},
+          {"noise", noise_hash(found)},
+          {"dead pixels", dead_pixels_hash(found)},
+          {"stripes", stripes_hash(found)},
+          {"corrected", Hash().add_pixels(found.corrected).value()},
+          {"levels", Hash().add_pixels(found.levels).value()},
+          {"denoised", Hash().add_pixels(found.denoised).value()},
+          {"edge pixels", Hash().add_pixels(found.edge_map).value()},
+          {"contours", contours_hash(found)},
+          {"linked", linked_hash(found)},
+          {"corners", corners_hash(found)},
+          {"scores", scores_hash(found)},
+          {"significance", significance_hash(found)},
+          {"positions", positions_hash(found)},
+          {"selection", selection_hash(found)}};
+}
+
+std::string table(const StageHashes& hashes) {
+  std::string text;
+  for (const auto& [stage, hash] : hashes) {
+    char digits[24];
+    std::snprintf(digits, sizeof digits, "0x%016llX", static_cast<unsigned long long>(hash));
+    text += "{\"" + stage + "\", " + digits + "},\n";
+  }
+  return text;
+}
+
+void expect_hashes(const std::string& spec, const StageHashes& wanted) {
+  const auto scene = sim::parse_scene(spec);
+  ASSERT_TRUE(scene);
+  const auto frame = sim::render(*scene, 0);
+  ASSERT_TRUE(frame);
+  auto detector = Detector::create(preset_options(Preset::kRobust));
+  ASSERT_TRUE(detector);
+  const auto found = detector->detect(frame->counts);
+  ASSERT_TRUE(found);
+  // Each stage has something to do.
+  EXPECT_FALSE((*found)->bad_pixels.empty());
+  EXPECT_FALSE((*found)->stripes->columns.empty());
+  EXPECT_FALSE((*found)->linked->links.empty());
+  EXPECT_GT((*found)->edges.kept, 5U);
+  EXPECT_LT((*found)->edges.kept, (*found)->edges.edges.size());
+  EXPECT_EQ(table(hashes_of(frame->counts, **found)), table(wanted));
+}
+
+TEST(GoldenStages, OfRobustInLittleNoise) {
+  expect_hashes("sim:corridor?sigma=8&column_sigma=6&row_sigma=3&bad_pixels=20",
+                {{"frame", 0x097D3CB601F24096},
+                 {"noise", 0xCFEEF17F70C70EE9},
+                 {"dead pixels", 0x9B5DF59D2CE9529D},
+                 {"stripes", 0x538BA94996ECA367},
+                 {"corrected", 0xD4AA01CB39FB3368},
+                 {"levels", 0xA83C5C550F3FCE75},
+                 {"denoised", 0x8AC363E45A4F8303},
+                 {"edge pixels", 0x2A93AF7319DFD1E4},
+                 {"contours", 0xDD80B5748D007A04},
+                 {"linked", 0xE60EBB4380C8240A},
+                 {"corners", 0x695E83A34ACCF28A},
+                 {"scores", 0x93CF6978301D1449},
+                 {"significance", 0x4565317AD0F91050},
+                 {"positions", 0x2F20C2EA6B01D64C},
+                 {"selection", 0x4FA7283716863C57}});
+}
+
+TEST(GoldenStages, OfRobustInStrongNoise) {
+  expect_hashes("sim:desk?sigma=60&column_sigma=30&bad_pixels=20",
+                {{"frame", 0x2A43AE39268BB285},
+                 {"noise", 0xFDAD951B23DE202F},
+                 {"dead pixels", 0x9B5DF59D2CE9529D},
+                 {"stripes", 0x4C4CDA67E50AA628},
+                 {"corrected", 0x019B05B03673F69E},
+                 {"levels", 0xA146F020ADC6E731},
+                 {"denoised", 0xA0B1639D880ABDAB},
+                 {"edge pixels", 0x265DCD6C6B92A29B},
+                 {"contours", 0x8E1F1C832DA000AC},
+                 {"linked", 0xEFC378AE846BB252},
+                 {"corners", 0x783595C8A9BA1B0D},
+                 {"scores", 0xD2D4A5902CA3D5AE},
+                 {"significance", 0x23528207EDFAFBF2},
+                 {"positions", 0x0685625ED4D2A21A},
+                 {"selection", 0xA05A995D3ADE014D}});
+}
+
+}  // namespace
+}  // namespace thermedge
