@@ -198,6 +198,17 @@ Status write_counts(const std::string& path, ImageView<const std::uint16_t> coun
   return io::write_picture(path, ImageView<const std::uint8_t>(levels.view()));
 }
 
+// A picture is to be as near to the frame without its noise as the method can make it. The presets'
+// denoisers are stronger and even out flat areas, which helps edges and costs 0.5 to 0.9 dB here;
+// their removal of stripes takes faint columns and rows of the scene along.
+DetectorOptions picture_denoise_options() {
+  DetectorOptions options;
+  options.nuc = {};
+  options.denoise = {};
+  options.denoise.bm3d.profile = Bm3dProfile::kQuality;
+  return options;
+}
+
 struct DenoiseCommand {
   CommonOptions common;
   ConfigOptions config;
@@ -220,7 +231,7 @@ struct DenoiseCommand {
 
   int run() const {
     Console report = common.report();
-    DetectorOptions chosen;
+    DetectorOptions chosen = picture_denoise_options();
     if (const Status status = options(chosen); !status) {
       return report.fail(status.error());
     }
@@ -271,7 +282,8 @@ void add_scale(CLI::App& program, int& exit_code) {
 }
 
 void add_denoise(CLI::App& program, int& exit_code) {
-  CLI::App& app = *program.add_subcommand("denoise", "frames with less noise, in counts");
+  CLI::App& app = *program.add_subcommand(
+      "denoise", "frames with less noise, in counts; slower and finer than what detect does");
   auto command = std::make_shared<DenoiseCommand>();
   command->common.add_to(app);
   command->config.add_to(app);

@@ -105,14 +105,26 @@ void GapCloser::prepare(const LinkedContours& curves, ImageView<const float> fra
 
 void GapCloser::paint(const LinkedContours& curves, std::span<const std::uint8_t> eligible) {
   fill_pixels(owner_.view(), kNone);
+  const auto paint_pixel = [&](Pixel pixel, std::size_t curve, std::size_t place) {
+    owner_(pixel.x, pixel.y) = static_cast<std::int32_t>(curve);
+    place_(pixel.x, pixel.y) = static_cast<std::int32_t>(place);
+  };
   for (std::size_t i = 0; i < eligible.size(); ++i) {
     if (eligible[i] == 0) {
       continue;
     }
-    std::int32_t place = 0;
-    for (const Pixel pixel : curves.contours.pixels(curves.contours.items[i])) {
-      owner_(pixel.x, pixel.y) = static_cast<std::int32_t>(i);
-      place_(pixel.x, pixel.y) = place++;
+    const auto pixels = curves.contours.pixels(curves.contours.items[i]);
+    paint_pixel(pixels.front(), i, 0);
+    paint_pixel(pixels.back(), i, pixels.size() - 1);
+  }
+  // A pixel at which curves end belongs to one that goes on through it.
+  for (std::size_t i = 0; i < eligible.size(); ++i) {
+    if (eligible[i] == 0) {
+      continue;
+    }
+    const auto pixels = curves.contours.pixels(curves.contours.items[i]);
+    for (std::size_t place = 1; place + 1 < pixels.size(); ++place) {
+      paint_pixel(pixels[place], i, place);
     }
   }
 }
@@ -156,16 +168,22 @@ GapCloser::Tip GapCloser::tip_of(const ContourSet& contours, std::int32_t end,
   return tip;
 }
 
-// The curve straight ahead, or the border.
+// The curve straight ahead, or the border. Of targets that cost the same, the brighter one.
 std::optional<GapCloser::Bridge> GapCloser::find_target(const Tip& tip, std::int32_t end,
-                                                        double least_cosine) const {
+                                                        double least_cosine,
+                                                        ImageView<const float> frame) const {
   constexpr double kRounding = 1e-9;  // more than that of a cost or a cosine
   const std::int32_t own_place = place_(tip.at.x, tip.at.y);
   const std::int32_t* owner = &owner_(tip.at.x, tip.at.y);
   const auto reach = static_cast<std::int32_t>(options_.gap_px);
   const bool inside = tip.at.x >= reach && tip.at.y >= reach && tip.at.x < owner_.width() - reach &&
                       tip.at.y < owner_.height() - reach;
-  Bridge best{kNoWay, end, {}, kNone, std::nullopt};
+  Bridge best{kNoWay, end, {}, kNone, std::nullopt, std::abs(tip.contrast)};
+  const auto is_better = [&](double cost, Pixel to) {
+    const double rounding = kRounding * best.cost;
+    return cost < best.cost - rounding ||
+           (cost <= best.cost + rounding && frame(to.x, to.y) > frame(best.to.x, best.to.y));
+  };
   for (const auto& [step, place, length] : offsets_) {
     if (length > best.cost * (1 + kRounding)) {
       break;  // no bridge costs less than its length
@@ -183,21 +201,19 @@ std::optional<GapCloser::Bridge> GapCloser::find_target(const Tip& tip, std::int
     const bool own_tip =
         is_own(end, to) && std::abs(place_(to.x, to.y) - own_place) <= kOwnGaps * options_.gap_px;
     const double cost = length * (1 + kTurnCost * (1 - cosine));
-    if (cosine >= least_cosine && !own_tip && cost < best.cost) {
-      best = {cost, end, to, kNone, std::nullopt};
+    if (cosine >= least_cosine && !own_tip && is_better(cost, to)) {
+      best.cost = cost;
+      best.to = to;
     }
   }
   if (const double length = distance_to_border(tip);
       length <= options_.gap_px && length < best.cost) {
     const auto place = [&](int from, double ahead, int size) {
-      return std::clamp(static_cast<int>(std::lround(from + length * ahead)), 1, size - 2);
+      return std::clamp(from + static_cast<int>(std::lround(length * ahead)), 1, size - 2);
     };
-    best = {length,
-            end,
-            {place(tip.at.x, tip.ahead.x, owner_.width()),
-             place(tip.at.y, tip.ahead.y, owner_.height())},
-            kNone,
-            std::nullopt};
+    best.cost = length;
+    best.to = {place(tip.at.x, tip.ahead.x, owner_.width()),
+               place(tip.at.y, tip.ahead.y, owner_.height())};
   }
   return best.cost < kNoWay && best.to != tip.at ? std::optional(best) : std::nullopt;
 }
@@ -254,8 +270,8 @@ std::optional<Pixel> GapCloser::corner_of(const Tip& a, const Tip& b) const {
   if (std::abs(sine) < kLeastSine || !is_near(from_a) || !is_near(from_b)) {
     return std::nullopt;
   }
-  const Pixel corner{static_cast<int>(std::lround(a.at.x + from_a * a.ahead.x)),
-                     static_cast<int>(std::lround(a.at.y + from_a * a.ahead.y))};
+  const Pixel corner{a.at.x + static_cast<int>(std::lround(from_a * a.ahead.x)),
+                     a.at.y + static_cast<int>(std::lround(from_a * a.ahead.y))};
   const bool inside = corner.x > 0 && corner.y > 0 && corner.x < owner_.width() - 1 &&
                       corner.y < owner_.height() - 1;
   return inside && corner != a.at && corner != b.at ? std::optional(corner) : std::nullopt;
@@ -286,7 +302,7 @@ std::optional<GapCloser::Bridge> GapCloser::find_bridge(const ContourSet& contou
   }
   const double least_cosine = std::cos(options_.max_turn_deg * std::numbers::pi / 180);
   const Tip tip = tip_of(contours, end, frame);
-  auto bridge = find_target(tip, end, least_cosine);
+  auto bridge = find_target(tip, end, least_cosine, frame);
   if (bridge) {
     meet_end(contours, frame, tip, least_cosine, *bridge);
     if (!step_goes_on(tip, bridge->corner.value_or(bridge->to), frame)) {
@@ -298,7 +314,7 @@ std::optional<GapCloser::Bridge> GapCloser::find_bridge(const ContourSet& contou
 
 void GapCloser::join(const ContourSet& contours, LinkedContours& bridged) {
   std::sort(bridges_.begin(), bridges_.end(), [](const Bridge& a, const Bridge& b) {
-    return std::tie(a.cost, a.end) < std::tie(b.cost, b.end);
+    return std::tie(a.cost, b.contrast, a.end) < std::tie(b.cost, a.contrast, b.end);
   });
   for (const Bridge& bridge : bridges_) {
     if (!chains_.is_free(bridge.end)) {

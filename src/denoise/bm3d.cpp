@@ -26,9 +26,8 @@ void for_each_row(int rows, ParallelRunner& runner, const Process& process) {
   });
 }
 
-// A block, then as many steps as cover the side; whole cells.
-int continued(int side, int step) {
-  const int unit = std::max(step, kCellPx);
+// A block, then as many units as cover the side.
+int continued(int side, int unit) {
   return kBlockPx + (std::max(side - kBlockPx, 0) + unit - 1) / unit * unit;
 }
 
@@ -41,6 +40,7 @@ Bm3dSettings bm3d_settings(const Bm3dOptions& options) {
     case Bm3dProfile::kQuality:
       settings.step_px = 2;
       settings.search_radius_px = 20;
+      settings.with_adjacent = true;
       break;
     case Bm3dProfile::kBalanced:
       settings.wiener.staggered = true;
@@ -54,7 +54,7 @@ Bm3dSettings bm3d_settings(const Bm3dOptions& options) {
 }
 
 Bm3d::Bm3d(const Bm3dSettings& settings)
-    : settings_(settings), pattern_(settings.search_radius_px) {
+    : settings_(settings), pattern_(settings.search_radius_px, settings.with_adjacent) {
   const double beta = settings.options.kaiser_beta;
   const double beta_squared = beta * beta;
   for (int i = 0; i < kBlockPx; ++i) {
@@ -78,8 +78,12 @@ Bm3d::Band Bm3d::band(int index) const {
 }
 
 void Bm3d::prepare(int width, int height) {
-  width_ = continued(width, settings_.step_px);
-  height_ = continued(height, settings_.step_px);
+  const bool staggered = settings_.hard.staggered || settings_.wiener.staggered;
+  const int unit = std::max(settings_.step_px, staggered ? 2 * kCellPx : kCellPx);
+  width_ = continued(width, unit);
+  height_ = continued(height, unit);
+  left_ = (width_ - width) / 2;
+  top_ = (height_ - height) / 2;
   noisy_.resize(MatchGuide::readable_width(width_), height_);
   estimate_.resize(MatchGuide::readable_width(width_), height_);
   guide_.resize(width_, height_, settings_.search_radius_px);
@@ -100,29 +104,28 @@ void Bm3d::prepare(int width, int height) {
 
 void Bm3d::load(ImageView<const float> in, const NoiseUnits& units, ParallelRunner& runner) {
   for_each_row(height_, runner, [&](int y) {
-    mirrored_row(in, units, y, 0, width_, noisy_.row(y));
+    mirrored_row(in, units, y - top_, left_, width_, noisy_.row(y));
     guide_.set_row(noisy_.row(y), y);
   });
 }
 
-// Columns of cells; the last one always has a block, so that the blocks cover the frame.
+// Columns of cells, as many from either side.
 void Bm3d::make_columns() {
   const int last = (width_ - kBlockPx) / kCellPx;
   const auto fill = [&](std::vector<int>& columns, int first, int every) {
     columns.clear();
-    for (int column = first; column < last; column += every) {
+    for (int column = first; column <= last; column += every) {
       columns.push_back(column);
     }
-    columns.push_back(last);
   };
   fill(all_columns_, 0, std::max(settings_.step_px / kCellPx, 1));
   fill(even_columns_, 0, 2);
   fill(odd_columns_, 1, 2);
 }
 
-// Of a staggered stage every other row is shifted; but for the last, which ends what it covers.
+// Every other row of a staggered stage is shifted, neither the first nor the last.
 std::span<const int> Bm3d::columns_of(const StageSettings& stage, int y) const {
-  const bool is_even = y / kCellPx % 2 == 0 || y == height_ - kBlockPx;
+  const bool is_even = y / kCellPx % 2 == 0;
   return !stage.staggered ? all_columns_ : is_even ? even_columns_ : odd_columns_;
 }
 
@@ -201,7 +204,8 @@ void Bm3d::run(ImageView<const float> in, const NoiseUnits& units, ImageView<flo
     run_stage(Stage::kWiener, runner);
   }
   for_each_row(out.height(), runner, [&](int y) {
-    std::transform(estimate_.row(y), estimate_.row(y) + out.width(), out.row(y),
+    const float* row = estimate_.row(y + top_) + left_;
+    std::transform(row, row + out.width(), out.row(y),
                    [&](float value) { return units.to_counts(value); });
   });
 }

@@ -22,6 +22,9 @@ struct Bm3dSettings {
   Bm3dOptions options;
   int step_px = 4;            // distance of reference blocks: 1, 2, 4 or 8
   int search_radius_px = 16;  // largest displacement of matched blocks, 4..kLargestSearchRadius
+  // Whether a block displaced by a pixel may join a group: more detail is kept, and more bilateral,
+  // which looks like edges.
+  bool with_adjacent = false;
   StageSettings hard;
   StageSettings wiener;
 };
@@ -29,8 +32,9 @@ struct Bm3dSettings {
 
 // Both stages do the same: match blocks on a guide (the frame itself, then the first estimate),
 // filter each group, add the blocks up. Reference blocks are cut into bands of rows; each band has
-// its own sums, which are merged in band order. The frame is continued to the right and down by
-// mirroring until the reference blocks cover it.
+// its own sums, which are merged in band order. The frame is continued to all sides by mirroring
+// until the reference blocks cover it, equally far to opposite sides, so that a mirrored or turned
+// frame has mirrored or turned blocks.
 class Bm3d {
  public:
   explicit Bm3d(const Bm3dSettings& settings);
@@ -74,6 +78,8 @@ class Bm3d {
 
   int width_ = 0;  // of the continued frame
   int height_ = 0;
+  int left_ = 0;  // what it has before the first column and row of the frame
+  int top_ = 0;
   std::vector<int> all_columns_;   // where reference blocks stand, in cells
   std::vector<int> even_columns_;  // and those of staggered rows
   std::vector<int> odd_columns_;

@@ -4,6 +4,8 @@
 #include <bit>
 #include <cassert>
 #include <cstdlib>
+#include <numeric>
+#include <tuple>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "bm3d_match_simd.cpp"
@@ -24,7 +26,10 @@ inline constexpr std::uint16_t kFarthest = 0x7ffd;
 
 // Levels in a unit of the noise: noise alone makes a sum of 64 absolute differences of about 290,
 // so good matches stay far below the largest distance.
-inline constexpr float kLevelsPerSigma = 4;
+inline constexpr float kLevelsPerSigma = 8;
+
+// So many tied classes are sorted at once; of more, the nearest are picked out before.
+inline constexpr int kMostSorted = 48;
 
 inline int rounded_up(int value, int multiple) {
   return (value + multiple - 1) / multiple * multiple;
@@ -33,8 +38,8 @@ inline int rounded_up(int value, int multiple) {
 struct Search {
   [[nodiscard]] int last_x() const { return guide.width() - kBlockPx; }
   [[nodiscard]] int last_y() const { return guide.height() - kBlockPx; }
-  // Cells from x to the last reference block.
-  [[nodiscard]] int lanes() const { return row.columns.back() + 1; }
+  // Cells from x on at which a block may begin, so that the next row finds all sums it needs.
+  [[nodiscard]] int lanes() const { return (last_x() - row.x) / kCellPx + 1; }
 
   const MatchGuide& guide;
   const SearchPattern& pattern;
@@ -164,40 +169,83 @@ HWY_INLINE hn::Vec<I16> distances_of(const Search& search, SearchPattern::Candid
   return hn::IfThenElse(too_far, hn::Set(di, kNoMatch), distances);
 }
 
-// Of each class the least distance and the first candidate that has it; and the sums over the
-// lower halves of all blocks.
-void find_nearest(const Search& search, MatchScratch& scratch) {
+// 1 in the lanes of the blocks right of the middle of the frame.
+HWY_INLINE hn::Vec<I16> right_of_middle(const Search& search, int x) {
+  const I16 di;
+  const int last_left = (search.last_x() - 2 * search.row.x) >> 3;  // cell
+  const auto cells = hn::Iota(di, static_cast<std::int16_t>(x));
+  return hn::IfThenElseZero(cells > hn::Set(di, static_cast<std::int16_t>(last_left)),
+                            hn::Set(di, 1));
+}
+
+// For the candidates `first` to `end` of a row, which are of one class: the least distance and the
+// outermost candidate that has it, against the best of the rows before; and the sums over the lower
+// halves of all blocks.
+HWY_INLINE void find_nearest_of_class(const Search& search, int dy, int first, int end,
+                                      MatchScratch& scratch) {
   const U16 d;
   const I16 di;
   const SearchPattern& pattern = search.pattern;
+  const auto candidates = pattern.row(dy);
+  const bool inside = search.row.y + dy >= 0;
+  const int neighbours = candidates[static_cast<std::size_t>(first)].neighbours;
+  std::int16_t* least = scratch.least.row(neighbours);
+  std::int16_t* nearest = scratch.nearest.row(neighbours);
+  for (int x = 0; x < search.lanes(); x += kLanes) {
+    const auto bias = hn::Load(di, scratch.is_right.row(0) + x);
+    auto best = hn::Set(di, kNoMatch);
+    auto best_index = hn::Zero(di);
+    for (int k = first; k < end; ++k) {
+      const int index = pattern.row_begin(dy) + k;
+      std::uint16_t* pairs = scratch.pairs.row(index);
+      const auto lower = sum_of_two(scratch.cells.row(k) + x);
+      if (inside) {
+        const auto sums = hn::SaturatedAdd(hn::Load(d, pairs + x), lower);
+        const auto distance =
+            distances_of(search, candidates[static_cast<std::size_t>(k)], x, sums);
+        const auto is_better = distance < best + bias;  // of equals, the first or the last
+        best = hn::Min(distance, best);
+        best_index =
+            hn::IfThenElse(is_better, hn::Set(di, static_cast<std::int16_t>(index)), best_index);
+      }
+      hn::Store(lower, d, pairs + x);
+    }
+    if (inside) {
+      const auto before = hn::Load(di, least + x);
+      hn::Store(hn::IfThenElse(best < before, best_index, hn::Load(di, nearest + x)), di,
+                nearest + x);
+      hn::Store(hn::Min(best, before), di, least + x);
+    }
+  }
+}
+
+// Of each class the least distance and the outermost candidate that has it.
+void find_nearest(const Search& search, MatchScratch& scratch) {
+  const SearchPattern& pattern = search.pattern;
   fill_pixels(scratch.least.view(), kNoMatch);
-  for (int dy = -pattern.radius_px(); dy <= pattern.radius_px(); ++dy) {
+  const bool is_upper = 2 * search.row.y <= search.last_y();
+  for (int x = 0; x < search.lanes(); x += kLanes) {
+    hn::Store(right_of_middle(search, x), I16(), scratch.is_right.row(0) + x);
+  }
+  for (int step = -pattern.radius_px(); step <= pattern.radius_px(); ++step) {
+    const int dy = is_upper ? step : -step;
     const int y = search.row.y + dy;
     if (y < -kCellPx || y > search.last_y()) {
       continue;
     }
     const auto candidates = pattern.row(dy);
     sum_cells(search, search.row.y + kCellPx, dy, scratch.cells);
-    for (int k = 0; k < static_cast<int>(candidates.size()); ++k) {
-      const SearchPattern::Candidate candidate = candidates[static_cast<std::size_t>(k)];
-      const int index = pattern.row_begin(dy) + k;
-      const std::uint16_t* cells = scratch.cells.row(k);
-      std::uint16_t* pairs = scratch.pairs.row(index);
-      std::int16_t* least = scratch.least.row(candidate.neighbours);
-      std::int16_t* nearest = scratch.nearest.row(candidate.neighbours);
-      for (int x = 0; x < search.lanes(); x += kLanes) {
-        const auto lower = sum_of_two(cells + x);
-        if (y >= 0) {
-          const auto sums = hn::SaturatedAdd(hn::Load(d, pairs + x), lower);
-          const auto distance = distances_of(search, candidate, x, sums);
-          const auto before = hn::Load(di, least + x);
-          const auto is_less = distance < before;
-          const auto self = hn::Set(di, static_cast<std::int16_t>(index));
-          hn::Store(hn::IfThenElse(is_less, self, hn::Load(di, nearest + x)), di, nearest + x);
-          hn::Store(hn::Min(distance, before), di, least + x);
-        }
-        hn::Store(lower, d, pairs + x);
+    const auto neighbours_of = [&](int k) {
+      return candidates[static_cast<std::size_t>(k)].neighbours;
+    };
+    const auto count = static_cast<int>(candidates.size());
+    for (int first = 0; first < count;) {
+      int end = first + 1;
+      while (end < count && neighbours_of(end) == neighbours_of(first)) {
+        ++end;
       }
+      find_nearest_of_class(search, dy, first, end, scratch);
+      first = end;
     }
   }
 }
@@ -238,38 +286,82 @@ void group_sizes(const MatchScratch& scratch, int x, int largest_group, std::int
   });
 }
 
-// Lists for each of the lanes `used` the classes of the sizes[lane] least distances.
-void take_nearest(int x, int largest_group, const std::int16_t* sizes, std::uint64_t used,
-                  MatchScratch& scratch) {
+// Lists for each of the lanes `used` the classes of the sizes[lane] least distances, and those that
+// tie with the last of them; fills listed[lane] with how many there are.
+void list_nearest(int x, int largest_group, const std::int16_t* sizes, std::uint64_t used,
+                  MatchScratch& scratch, int* listed) {
   const I16 d;
   const auto one = hn::Set(d, 1);
   const auto wanted = hn::Load(d, sizes);
   // Bisection: no more than `wanted` classes but too few lie within `low`, enough within `high`.
   auto low = hn::Set(d, -1);
   auto high = bound_of(scratch, x, largest_group);
-  auto ties = wanted;  // classes at `high` to be taken
   while (!hn::AllFalse(d, high - low > one)) {
     const auto middle = low + hn::ShiftRight<1>(high - low);
     const auto count = count_within(scratch, x, middle);
     const auto too_few = wanted > count;
     low = hn::IfThenElse(too_few, middle, low);
-    ties = hn::IfThenElse(too_few, wanted - count, ties);
     high = hn::IfThenElse(too_few, high, middle);
     // Just enough: no need to go on.
-    const auto found = count == wanted;
-    low = hn::IfThenElse(found, middle, low);
-    ties = hn::IfThenElse(found, wanted, ties);
+    low = hn::IfThenElse(count == wanted, middle, low);
   }
-  int counts[kLanes] = {};
+  std::fill_n(listed, kLanes, 0);
   for (int i = 0; i < scratch.least.height(); ++i) {
-    const auto distance = hn::Load(d, scratch.least.row(i) + x);
-    const auto tied = hn::And(distance == high, ties > hn::Zero(d));
-    ties = ties - hn::IfThenElseZero(tied, one);
-    std::uint64_t lanes = lanes_of(hn::Or(distance < high, tied)) & used;
+    const auto beyond = hn::Load(d, scratch.least.row(i) + x) > high;
+    std::uint64_t lanes = ~lanes_of(beyond) & used;
     for (; lanes != 0; lanes &= lanes - 1) {
       const auto lane = static_cast<int>(hwy::Num0BitsBelowLS1Bit_Nonzero64(lanes));
-      scratch.taken(counts[lane]++, lane) = static_cast<std::int16_t>(i);
+      scratch.taken(listed[lane]++, lane) = static_cast<std::int16_t>(i);
     }
+  }
+}
+
+// Sorts up to kMostSorted different keys; `keys` has a vector to spare.
+void sort_keys(std::uint32_t* keys, int count) {
+  const hn::CappedTag<std::uint32_t, 16> d;
+  const hn::RebindToSigned<decltype(d)> di;
+  HWY_ALIGN std::uint32_t sorted[kMostSorted + 16];
+  for (int i = 0; i < count; i += static_cast<int>(hn::Lanes(d))) {
+    const auto self = hn::BitCast(di, hn::LoadU(d, keys + i));
+    auto place = hn::Zero(di);
+    for (int k = 0; k < count; ++k) {
+      const auto other = hn::Set(di, static_cast<std::int32_t>(keys[k]));
+      place = place - hn::VecFromMask(di, other < self);  // true is -1
+    }
+    HWY_ALIGN std::int32_t places[16];
+    hn::Store(place, di, places);
+    const int lanes = std::min(static_cast<int>(hn::Lanes(d)), count - i);
+    for (int lane = 0; lane < lanes; ++lane) {
+      sorted[places[lane]] = keys[i + lane];
+    }
+  }
+  std::copy_n(sorted, count, keys);
+}
+
+// The group of the reference block in this column and lane, from the classes listed for it.
+void make_group(const Search& search, int column, int lane, int listed, int size,
+                MatchScratch& scratch, BlockGroup& group) {
+  const BlockPosition at = {search.row.x + kCellPx * column, search.row.y};
+  const int octant = octant_of(at, search.guide.width(), search.guide.height());
+  std::uint32_t* keys = scratch.keys.data();
+  const std::int16_t* taken = scratch.taken.row(lane);
+  const std::int16_t* least = scratch.least.row(0) + column;
+  const std::int16_t* nearest = scratch.nearest.row(0) + column;
+  const std::uint16_t* ranks = search.pattern.ranks(octant).data();
+  const std::ptrdiff_t stride = scratch.least.stride();  // and that of `nearest`
+  for (int k = 0; k < listed; ++k) {
+    const std::ptrdiff_t row = taken[k] * stride;
+    keys[k] = static_cast<std::uint32_t>(least[row]) << 16U | ranks[nearest[row]];
+  }
+  if (listed > kMostSorted) {
+    std::nth_element(keys, keys + size, keys + listed);
+    listed = size;
+  }
+  sort_keys(keys, listed);
+  group.size = size;
+  for (int k = 0; k < size; ++k) {
+    const auto& candidate = search.pattern.of_rank(octant, keys[k] & 0xffffU);
+    group.blocks[k] = {at.x + candidate.dx, at.y + candidate.dy};
   }
 }
 
@@ -285,18 +377,11 @@ void match_row(const Search& search, int largest_group, MatchScratch& scratch,
     }
     HWY_ALIGN std::int16_t sizes[kLanes];
     group_sizes(scratch, x, largest_group, sizes);
-    take_nearest(x, largest_group, sizes, used, scratch);
+    int listed[kLanes];
+    list_nearest(x, largest_group, sizes, used, scratch, listed);
     for (; i < columns.size() && columns[i] < x + kLanes; ++i) {
-      const int column = columns[i];
-      const int lane = column - x;
-      BlockGroup& group = groups[i];
-      group.size = sizes[lane];
-      for (int k = 0; k < group.size; ++k) {
-        const int nearest = scratch.nearest(column, scratch.taken(k, lane));
-        const auto& candidate = search.pattern.candidates()[static_cast<std::size_t>(nearest)];
-        group.blocks[k] = {search.row.x + kCellPx * column + candidate.dx,
-                           search.row.y + candidate.dy};
-      }
+      const int lane = columns[i] - x;
+      make_group(search, columns[i], lane, listed[lane], sizes[lane], scratch, groups[i]);
     }
   }
 }
@@ -312,11 +397,19 @@ HWY_EXPORT(quantise_row);
 HWY_EXPORT(begin_pairs);
 HWY_EXPORT(match_row);
 
-SearchPattern::SearchPattern(int radius_px) : radius_px_(radius_px) {
+SearchPattern::SearchPattern(int radius_px, bool with_adjacent) : radius_px_(radius_px) {
   constexpr int kDenseRadius = 6;
   constexpr int kDenseClassPx = 2;
   constexpr int kSparseClassPx = 4;
-  // Numbers of the classes, by their first displacement; dense ones and sparse ones may share it.
+  // Squares of displacements around the one in the middle, which is narrower or wider by a pixel,
+  // so that a mirrored pattern has mirrored classes. The middle one of the dense classes holds the
+  // reference block alone, or also the blocks adjacent to it, which then never join its group.
+  const auto place_of = [&](int displacement, int class_px) {
+    const bool is_narrow = class_px == kSparseClassPx || with_adjacent;
+    const int place = (std::abs(displacement) + (is_narrow ? 1 : 0)) / class_px;
+    return radius_px + (displacement < 0 ? -place : place);
+  };
+  // Numbers of the classes, by their places; dense ones and sparse ones may share them.
   const int side = 2 * radius_px + 1;
   std::vector<int> numbers(static_cast<std::size_t>(2 * side * side), -1);
   for (int dy = -radius_px; dy <= radius_px; ++dy) {
@@ -327,10 +420,8 @@ SearchPattern::SearchPattern(int radius_px) : radius_px_(radius_px) {
         continue;
       }
       const int class_px = dense ? kDenseClassPx : kSparseClassPx;
-      const int first_x = (dx + radius_px) / class_px * class_px;
-      const int first_y = (dy + radius_px) / class_px * class_px;
-      int& number =
-          numbers[static_cast<std::size_t>(2 * (first_y * side + first_x) + (dense ? 1 : 0))];
+      const int place = place_of(dy, class_px) * side + place_of(dx, class_px);
+      int& number = numbers[static_cast<std::size_t>(2 * place + (dense ? 1 : 0))];
       if (number < 0) {
         number = classes_++;
       }
@@ -338,6 +429,37 @@ SearchPattern::SearchPattern(int radius_px) : radius_px_(radius_px) {
     }
   }
   row_begin_.push_back(static_cast<int>(candidates_.size()));
+  rank_candidates();
+}
+
+void SearchPattern::rank_candidates() {
+  const std::size_t count = candidates_.size();
+  ranks_.resize(kOctants * count);
+  of_ranks_.resize(kOctants * count);
+  for (int octant = 0; octant < kOctants; ++octant) {
+    // As seen from the first octant: nearest first, then those that lie farther outwards.
+    const auto order_of = [&](std::uint16_t i) {
+      const int x = (octant & 1) != 0 ? -candidates_[i].dx : candidates_[i].dx;
+      const int y = (octant & 2) != 0 ? -candidates_[i].dy : candidates_[i].dy;
+      const bool swapped = (octant & 4) != 0;
+      return std::tuple(-(x * x + y * y), swapped ? -y : -x, swapped ? -x : -y);
+    };
+    const auto of_rank =
+        std::span(of_ranks_).subspan(static_cast<std::size_t>(octant) * count, count);
+    std::iota(of_rank.begin(), of_rank.end(), std::uint16_t{0});
+    std::sort(of_rank.begin(), of_rank.end(),
+              [&](std::uint16_t a, std::uint16_t b) { return order_of(a) < order_of(b); });
+    for (std::size_t rank = 0; rank < count; ++rank) {
+      ranks_[static_cast<std::size_t>(octant) * count + of_rank[rank]] =
+          static_cast<std::uint16_t>(rank);
+    }
+  }
+}
+
+int octant_of(BlockPosition block, int width, int height) {
+  const int x = 2 * block.x + kBlockPx - width;
+  const int y = 2 * block.y + kBlockPx - height;
+  return (x < 0 ? 1 : 0) + (y < 0 ? 2 : 0) + (std::abs(x) < std::abs(y) ? 4 : 0);
 }
 
 std::span<const SearchPattern::Candidate> SearchPattern::row(int dy) const {
@@ -366,7 +488,9 @@ void MatchScratch::prepare(const SearchPattern& pattern, int cells_in_row) {
   pairs.resize(columns, static_cast<int>(pattern.candidates().size()));
   least.resize(columns, pattern.classes());
   nearest.resize(columns, pattern.classes());
-  taken.resize(kLargestGroup, kWidestLanes);
+  is_right.resize(columns, 1);
+  taken.resize(pattern.classes(), kWidestLanes);
+  keys.resize(static_cast<std::size_t>(std::max(pattern.classes(), kMostSorted) + kWidestLanes));
 }
 
 void match_row(const MatchGuide& guide, const SearchPattern& pattern, const ReferenceRow& row,

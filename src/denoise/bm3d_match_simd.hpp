@@ -43,7 +43,12 @@ class SearchPattern {
     int neighbours = 0;  // number of its class
   };
 
-  explicit SearchPattern(int radius_px);
+  // Parts of a frame: which quarter of it a place lies in, and whether it is farther from the
+  // middle across than down. Mirroring and turning a frame takes its octants into each other.
+  static constexpr int kOctants = 8;
+
+  // `with_adjacent`: blocks displaced by a pixel may join a group.
+  SearchPattern(int radius_px, bool with_adjacent);
 
   [[nodiscard]] int radius_px() const { return radius_px_; }
   [[nodiscard]] int classes() const { return classes_; }
@@ -53,13 +58,31 @@ class SearchPattern {
   [[nodiscard]] int row_begin(int dy) const {
     return row_begin_[static_cast<std::size_t>(dy + radius_px_)];
   }
+  // Which of equally good candidates goes first for a reference block in this octant (0: the
+  // first): the same one in a mirrored or turned frame.
+  [[nodiscard]] std::span<const std::uint16_t> ranks(int octant) const {
+    return std::span(ranks_).subspan(index_of(octant, 0), candidates_.size());
+  }
+  [[nodiscard]] const Candidate& of_rank(int octant, std::uint32_t rank) const {
+    return candidates_[of_ranks_[index_of(octant, static_cast<int>(rank))]];
+  }
 
  private:
+  void rank_candidates();
+  [[nodiscard]] std::size_t index_of(int octant, int i) const {
+    return static_cast<std::size_t>(octant) * candidates_.size() + static_cast<std::size_t>(i);
+  }
+
   int radius_px_;
   int classes_ = 0;
   std::vector<Candidate> candidates_;
-  std::vector<int> row_begin_;  // for each dy, and the end
+  std::vector<int> row_begin_;           // for each dy, and the end
+  std::vector<std::uint16_t> ranks_;     // of each candidate, octant by octant
+  std::vector<std::uint16_t> of_ranks_;  // candidates by their ranks
 };
+
+// The octant of the frame in which the middle of a block lies.
+[[nodiscard]] int octant_of(BlockPosition block, int width, int height);
 
 // What blocks are compared on: a frame as integers of a fraction of its noise, modulo 2^16 (small
 // differences stay right where the frame has a huge range).
@@ -100,11 +123,13 @@ struct MatchScratch {
   // For rows that reach over so many cells; match_row does it otherwise.
   void prepare(const SearchPattern& pattern, int cells_in_row);
 
-  Image<std::uint16_t> cells;   // a row for each candidate of one dy: sums over cells
-  Image<std::uint16_t> pairs;   // a row for each candidate: sums over the lower halves of blocks
-  Image<std::int16_t> least;    // a row for each class: its least distance
-  Image<std::int16_t> nearest;  // and the number of the candidate that has it
-  Image<std::int16_t> taken;    // a row for each lane of a vector: the classes taken
+  Image<std::uint16_t> cells;    // a row for each candidate of one dy: sums over cells
+  Image<std::uint16_t> pairs;    // a row for each candidate: sums over the lower halves of blocks
+  Image<std::int16_t> least;     // a row for each class: its least distance
+  Image<std::int16_t> nearest;   // and the number of the candidate that has it
+  Image<std::int16_t> is_right;  // 1 for the blocks right of the middle of the frame
+  Image<std::int16_t> taken;     // a row for each lane of a vector: the classes listed
+  std::vector<std::uint32_t> keys;  // of the candidates for one group: distance, then rank
   // What `pairs` belongs to: rows of reference blocks with this first one, so many cells long.
   int pairs_x = 0;
   int pairs_y = 0;
@@ -114,8 +139,9 @@ struct MatchScratch {
 // For each reference block of the row the group of the blocks in the frame that are most like it;
 // group i is that of the i-th. Its size is the largest power of two up to `largest_group` for which
 // there are classes. The distance is the sum of absolute differences of levels plus 1, at most
-// 32765; that of the reference block to itself is 0. Within a class and between classes the first
-// of equals wins; the group is sorted by class.
+// 32765; that of the reference block to itself is 0. The group is sorted by distance, those at the
+// same distance by their rank in the octant of the reference block. Of equals within a class the
+// one farther from the middle of the frame wins, by row, then by column.
 //
 // Sums are taken over cells. Those of the lower cells serve again as upper ones if the next call
 // with this scratch is for the row kCellPx below; forget them (pairs_cells = 0) when the guide

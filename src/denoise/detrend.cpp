@@ -20,27 +20,29 @@ void Detrender::prepare(int width, int height) {
 void Detrender::measure(ImageView<const float> frame) {
   prepare(frame.width(), frame.height());
   fill_pixels(blocks_.view(), 0.0);
+  const int left = (frame.width() - kBlock * blocks_.width()) / 2;
+  const int top = (frame.height() - kBlock * blocks_.height()) / 2;
   for (int y = 0; y < kBlock * blocks_.height(); ++y) {
-    const float* row = frame.row(y);
+    const float* row = frame.row(top + y) + left;
     double* sums = blocks_.row(y / kBlock);
     for (int x = 0; x < kBlock * blocks_.width(); ++x) {
       sums[x / kBlock] += row[x];
     }
   }
-  const auto add_slope = [&](int at, double difference) {
-    slopes_.push_back({1.0 * kBlock * at, difference / (kBlock * kBlock * kBlock), 1});
+  const auto add_slope = [&](int place, double difference) {
+    slopes_.push_back({1.0 * place, difference / (kBlock * kBlock * kBlock), 1});
   };
   slopes_.clear();
   for (int y = 0; y < blocks_.height(); ++y) {
     for (int x = 1; x < blocks_.width(); ++x) {
-      add_slope(x, blocks_(x, y) - blocks_(x - 1, y));
+      add_slope(left + kBlock * x, blocks_(x, y) - blocks_(x - 1, y));
     }
   }
   fill(robust_line(slopes_, distances_), columns_);
   slopes_.clear();
   for (int y = 1; y < blocks_.height(); ++y) {
     for (int x = 0; x < blocks_.width(); ++x) {
-      add_slope(y, blocks_(x, y) - blocks_(x, y - 1));
+      add_slope(top + kBlock * y, blocks_(x, y) - blocks_(x, y - 1));
     }
   }
   fill(robust_line(slopes_, distances_), rows_);

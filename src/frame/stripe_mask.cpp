@@ -154,7 +154,10 @@ double StripeMask::usual_sum(ImageView<const std::int32_t> sums, int reach) {
   constexpr double kQuantile = 0.2;
   constexpr int kSampleRows = 5;
   sample_.clear();
-  for (int y = 0; y < sums.height(); y += kSampleRows) {
+  for (int y = 0; y < sums.height(); ++y) {
+    if (std::min(y, sums.height() - 1 - y) % kSampleRows != 0) {
+      continue;  // the same rows from either side
+    }
     const auto scale = static_cast<float>(1 / std::sqrt(window_rows(y, reach, sums.height())));
     const std::size_t first = sample_.size();
     const std::int32_t* row = sums.row(y);

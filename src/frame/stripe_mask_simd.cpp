@@ -116,7 +116,7 @@ void reach_row(const std::uint8_t* marks, int count, std::uint16_t* reach) {
 }
 
 float less_offsets(float count, float of_column, float of_row) {
-  return std::min(std::max(count - of_column - of_row, 0.0F), 65535.0F) + 0.5F;
+  return std::min(std::max(count - (of_column + of_row), 0.0F), 65535.0F) + 0.5F;
 }
 
 template <class F>
@@ -127,7 +127,7 @@ HWY_INLINE void subtract_row(F&& of_columns, float of_row, int width, std::uint1
   int x = 0;
   for (; x + kLanes <= width; x += kLanes) {
     const auto before = hn::ConvertTo(df, hn::PromoteTo(d, hn::LoadU(d16, counts + x)));
-    const auto value = before - of_columns(df, x) - hn::Set(df, of_row);
+    const auto value = before - (of_columns(df, x) + hn::Set(df, of_row));
     const auto clamped = hn::Min(hn::Max(value, hn::Zero(df)), hn::Set(df, 65535.0F));
     const auto rounded = hn::ConvertTo(d, clamped + hn::Set(df, 0.5F));
     hn::StoreU(hn::DemoteTo(d16, rounded), d16, counts + x);

@@ -372,8 +372,9 @@ bool ColumnOffsets::measure(ImageView<const std::uint16_t> counts,
   std::fill(offsets_.begin(), offsets_.end(), 0.0);
   find_pairs(sigma);
   const detail::Line slope = remove_slope();
-  for (int x = 0; x < columns_; ++x) {
-    background_[index(x)] = x * slope.at(0.5 * x);  // its integral
+  const double middle = 0.5 * (columns_ - 1);
+  for (int x = 0; x < columns_; ++x) {  // its integral, 0 in the middle
+    background_[index(x)] = (x - middle) * slope.at(0.5 * (x + middle));
   }
   solve(kNoPrior, {}, profile_);
   const double deviation = deviation_ = white_deviation(profile_);

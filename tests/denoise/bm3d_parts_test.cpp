@@ -84,7 +84,7 @@ struct Guide {
     for (int y = 0; y < height; ++y) {
       for (int x = 0; x < width; ++x) {
         levels(x, y) = static_cast<std::int16_t>(std::lrint(normal(random)));
-        values(x, y) = 0.25F * levels(x, y);
+        values(x, y) = 0.125F * levels(x, y);
       }
     }
     set();
@@ -108,7 +108,8 @@ std::vector<BlockPosition> positions(const detail::BlockGroup& group) {
 TEST(Bm3dMatchTest, FindsTheNearestBlocksOfEachRow) {
   for (const auto& [width, height] : {std::pair{8, 8}, {12, 44}, {96, 12}, {140, 28}, {156, 24}}) {
     for (const int radius : {4, 7, 16, 32}) {
-      const detail::SearchPattern pattern(radius);
+      const bool with_adjacent = radius == 7;
+      const detail::SearchPattern pattern(radius, with_adjacent);
       for (const double sigma : {0.0, 0.3, 4.0, 60.0, 9000.0}) {
         SCOPED_TRACE(std::to_string(width) + " x " + std::to_string(height) + ", radius " +
                      std::to_string(radius) + ", sigma " + std::to_string(sigma));
@@ -124,7 +125,7 @@ TEST(Bm3dMatchTest, FindsTheNearestBlocksOfEachRow) {
             detail::match_row(guide.guide, pattern, {0, y, columns}, largest, scratch, groups);
             for (int i = 0; i < std::ssize(columns); i += i < 2 ? 1 : 3) {
               ASSERT_EQ(positions(groups[static_cast<std::size_t>(i)]),
-                        test::matches(guide.levels, {4 * i, y}, radius, largest))
+                        test::matches(guide.levels, {4 * i, y}, radius, largest, with_adjacent))
                   << "block " << i << " of row " << y;
             }
           }
@@ -137,7 +138,7 @@ TEST(Bm3dMatchTest, FindsTheNearestBlocksOfEachRow) {
 // Rows that neither follow each other nor begin at a whole cell, and blocks farther apart.
 TEST(Bm3dMatchTest, FindsThemForAnyRow) {
   Guide guide(180, 40, 6, 12);
-  const detail::SearchPattern pattern(12);
+  const detail::SearchPattern pattern(12, false);
   detail::MatchScratch scratch;
   std::vector<detail::BlockGroup> groups(45);
   const auto expect_row = [&](int x, int y, const std::vector<int>& columns) {
@@ -159,11 +160,11 @@ TEST(Bm3dMatchTest, FindsThemForAnyRow) {
 TEST(Bm3dMatchTest, QuantisesModulo65536ToTheNearestLevel) {
   Image<float> values(detail::MatchGuide::readable_width(8), 8);
   fill_pixels(values.view(), 0.0F);
-  values(0, 3) = 16384.0F + 0.25F;  // 65536 + 1 levels
-  values(1, 3) = -1e6F;             // -4000000 levels
+  values(0, 3) = 8192.0F + 0.125F;  // 65536 + 1 levels
+  values(1, 3) = -1e6F;             // -8000000 levels
   values(2, 3) = 3e9F;              // any, but no crash
-  values(3, 3) = 0.2F;              // 0.8 levels
-  values(4, 3) = -0.2F;
+  values(3, 3) = 0.1F;              // 0.8 levels
+  values(4, 3) = -0.1F;
   test::for_each_simd_target([&](const std::string&) {
     detail::MatchGuide guide;
     guide.resize(8, 8, 16);
@@ -172,7 +173,7 @@ TEST(Bm3dMatchTest, QuantisesModulo65536ToTheNearestLevel) {
     }
     const auto level = [&](int x) { return guide.phases()(guide.margin() + x / 4, 12 + x % 4); };
     EXPECT_EQ(level(0), 1);
-    EXPECT_EQ(level(1), static_cast<std::int16_t>(-4000000 & 0xffff));
+    EXPECT_EQ(level(1), static_cast<std::int16_t>(-8000000 & 0xffff));
     EXPECT_EQ(level(3), 1);
     EXPECT_EQ(level(4), -1);
     EXPECT_EQ(level(5), 0);

@@ -10,6 +10,7 @@
 #include <map>
 #include <numbers>
 #include <optional>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -128,43 +129,61 @@ inline int block_distance(ImageView<const std::int16_t> levels, BlockPosition a,
 }
 
 // Displacements near by are sorted into squares of 2 x 2, the others, every other one of them, into
-// squares of 4 x 4; a class is known by its size and the indices of its square.
+// squares of 4 x 4, outwards from those in the middle, which are 3 (or, with blocks displaced by a
+// pixel, 1) and 5 wide; a class is known by its size and the indices of its square.
 using NeighbourClass = std::array<int, 3>;
-inline std::optional<NeighbourClass> class_of(int dx, int dy, int radius) {
+inline std::optional<NeighbourClass> class_of(int dx, int dy, int radius, bool with_adjacent) {
   const bool dense = std::abs(dx) <= 6 && std::abs(dy) <= 6;
   if (std::hypot(dx, dy) > radius || (!dense && (dx + dy) % 2 != 0)) {
     return {};
   }
   const int side = dense ? 2 : 4;
-  return NeighbourClass{side, (dy + radius) / side, (dx + radius) / side};
+  const auto square = [&](int displacement) {
+    const int far = std::abs(displacement) + (dense && !with_adjacent ? 0 : 1);
+    return (displacement < 0 ? -1 : 1) * (far / side);
+  };
+  return NeighbourClass{side, square(dy), square(dx)};
 }
 
-// The group of `reference`, by the order in which its classes come up row by row.
+// The group of `reference`, nearest first. Displacements are seen from the middle of the frame: of
+// equals in a class the outer one, down before across, is taken, and of equals in the group the one
+// that is displaced farther, then the outer one along the longer way from the middle.
 inline std::vector<BlockPosition> matches(ImageView<const std::int16_t> levels,
-                                          BlockPosition reference, int radius, int largest) {
+                                          BlockPosition reference, int radius, int largest,
+                                          bool with_adjacent = false) {
   struct Match {
     int distance = 0;
-    int order = 0;  // of the class
+    std::array<int, 2> in_class;
+    std::array<int, 3> in_group;
     BlockPosition block;
   };
-  std::map<NeighbourClass, int> orders;
+  const int from_middle_x = 2 * reference.x - (levels.width() - kSide);
+  const int from_middle_y = 2 * reference.y - (levels.height() - kSide);
   std::map<NeighbourClass, Match> best;
   for (int dy = -radius; dy <= radius; ++dy) {
     for (int dx = -radius; dx <= radius; ++dx) {
-      const auto neighbours = class_of(dx, dy, radius);
-      if (!neighbours) {
-        continue;
-      }
-      const int order = orders.try_emplace(*neighbours, orders.size()).first->second;
+      const auto neighbours = class_of(dx, dy, radius, with_adjacent);
       const BlockPosition block = {reference.x + dx, reference.y + dy};
-      if (block.x < 0 || block.y < 0 || block.x > levels.width() - kSide ||
+      if (!neighbours || block.x < 0 || block.y < 0 || block.x > levels.width() - kSide ||
           block.y > levels.height() - kSide) {
         continue;
       }
-      const int distance = block == reference ? 0 : block_distance(levels, reference, block);
-      const auto [at, added] = best.try_emplace(*neighbours, Match{distance, order, block});
-      if (!added && distance < at->second.distance) {
-        at->second = {distance, order, block};
+      const auto inwards = [](int from_middle, int displacement, bool right) {
+        return from_middle > 0 || (from_middle == 0 && right) ? -displacement : displacement;
+      };
+      const int across = inwards(from_middle_x, dx, true);
+      const int down = inwards(from_middle_y, dy, true);
+      const bool is_tall = std::abs(from_middle_x) < std::abs(from_middle_y);
+      const Match match = {block == reference ? 0 : block_distance(levels, reference, block),
+                           {inwards(from_middle_y, dy, false), inwards(from_middle_x, dx, false)},
+                           {-(dx * dx + dy * dy), is_tall ? down : across, is_tall ? across : down},
+                           block};
+      const auto [at, added] = best.try_emplace(*neighbours, match);
+      const auto is_better = [](const Match& a, const Match& b) {
+        return std::tie(a.distance, a.in_class) < std::tie(b.distance, b.in_class);
+      };
+      if (!added && is_better(match, at->second)) {
+        at->second = match;
       }
     }
   }
@@ -172,12 +191,10 @@ inline std::vector<BlockPosition> matches(ImageView<const std::int16_t> levels,
   for (const auto& [neighbours, match] : best) {
     found.push_back(match);
   }
-  const auto by_order = [](const Match& a, const Match& b) { return a.order < b.order; };
-  std::sort(found.begin(), found.end(), by_order);
-  std::stable_sort(found.begin(), found.end(),
-                   [](const Match& a, const Match& b) { return a.distance < b.distance; });
+  std::sort(found.begin(), found.end(), [](const Match& a, const Match& b) {
+    return std::tie(a.distance, a.in_group) < std::tie(b.distance, b.in_group);
+  });
   found.resize(std::bit_floor(std::min(found.size(), static_cast<std::size_t>(largest))));
-  std::sort(found.begin(), found.end(), by_order);
   std::vector<BlockPosition> group;
   for (const Match& match : found) {
     group.push_back(match.block);
@@ -188,7 +205,8 @@ inline std::vector<BlockPosition> matches(ImageView<const std::int16_t> levels,
 using Group = std::vector<BlockPosition>;
 
 // BM3D written down plainly: one group after the other, all in double precision. The frame must be
-// one that reference blocks cover: 8 px and steps, at least whole cells of 4.
+// one that reference blocks cover: 8 px and steps, at least whole cells of 4, or whole blocks where
+// a stage is staggered.
 class ReferenceBm3d {
  public:
   ReferenceBm3d(const Image<double>& noisy, const detail::Bm3dSettings& settings)
@@ -210,7 +228,7 @@ class ReferenceBm3d {
     Image<std::int16_t> levels(width_, height_);
     for (int y = 0; y < height_; ++y) {
       for (int x = 0; x < width_; ++x) {
-        levels(x, y) = static_cast<std::int16_t>(std::llrint(guide(x, y) * 4));
+        levels(x, y) = static_cast<std::int16_t>(std::llrint(guide(x, y) * 8));
       }
     }
     sums_.resize(width_, height_);
@@ -220,13 +238,12 @@ class ReferenceBm3d {
     const detail::StageSettings& stage = wiener ? settings_.wiener : settings_.hard;
     const int step = settings_.step_px;
     for (int y = 0; y <= height_ - kSide; y += step) {
-      const int odd = y < height_ - kSide ? y / step % 2 : 0;
       for (int x = 0; x <= width_ - kSide; x += step) {
-        if (stage.staggered && x < width_ - kSide && x / step % 2 != odd) {
+        if (stage.staggered && (x + y) / step % 2 != 0) {
           continue;
         }
-        const Group group =
-            matches(levels, {x, y}, settings_.search_radius_px, stage.largest_group);
+        const Group group = matches(levels, {x, y}, settings_.search_radius_px, stage.largest_group,
+                                    settings_.with_adjacent);
         wiener ? filter_wiener(guide, group) : filter_hard(group);
       }
     }

@@ -54,6 +54,7 @@ class GapCloser {
     Pixel to;
     std::int32_t partner;         // end that it meets, -1: none
     std::optional<Pixel> corner;  // by way of which it does
+    double contrast;              // of the end, without its sign
   };
 
   // From an end to where it may be bridged to.
@@ -70,7 +71,8 @@ class GapCloser {
                            ImageView<const float> frame) const;
   [[nodiscard]] static Vector direction(Pixel from, Pixel to);
   [[nodiscard]] std::optional<Bridge> find_target(const Tip& tip, std::int32_t end,
-                                                  double least_cosine) const;
+                                                  double least_cosine,
+                                                  ImageView<const float> frame) const;
   [[nodiscard]] double distance_to_border(const Tip& tip) const;
   void meet_end(const ContourSet& contours, ImageView<const float> frame, const Tip& tip,
                 double least_cosine, Bridge& bridge) const;
