@@ -29,7 +29,7 @@ using Map = ImageView<std::uint8_t>;
 constexpr GreyScaleOptions kScale;
 
 // Algorithm 1, then a filter of levels.
-FrontEnd front(std::string name, const std::function<void(Levels, Map)>& filter) {
+[[maybe_unused]] FrontEnd front(std::string name, const std::function<void(Levels, Map)>& filter) {
   return {std::move(name), [filter](Counts counts, Map levels) {
             Image<std::uint8_t> plain(counts.width(), counts.height());
             value_or_exit(scale_to_8bit(counts, kScale, plain));

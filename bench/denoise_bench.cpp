@@ -1,9 +1,8 @@
-// Time and quality of the denoisers, side by side with OpenCV's. Writes a CSV.
-//   denoise_bench OUT.csv [PHOTOGRAPHS]
-// PHOTOGRAPHS: a directory with clean/NAME.png (8 bits) and noisy/NAME_sSIGMA.png (16 * level +
-// 8000); without it quality is measured on simulated scenes alone.
+// Time and quality of the denoisers, side by side with OpenCV's. Writes a CSV; --help tells how to
+// call it.
 #include <fmt/core.h>
 #include <fmt/os.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <array>
@@ -315,9 +314,17 @@ int run(const std::string& csv, const std::string& photograph_directory) {
 }  // namespace thermedge::bench
 
 int main(int argc, char** argv) {
-  if (argc < 2) {
-    fmt::print(stderr, "usage: denoise_bench OUT.csv [PHOTOGRAPHS]\n");
-    return 2;
+  CLI::App app("Time and quality of the denoisers, side by side with OpenCV's");
+  std::string csv;
+  std::string photographs;
+  app.add_option("OUT", csv, "the CSV file")->required();
+  app.add_option("PHOTOGRAPHS", photographs,
+                 "directory with clean/NAME.png (8 bits) and noisy/NAME_sSIGMA.png (16 * level + "
+                 "8000); without it quality is measured on simulated scenes alone");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
   }
-  return thermedge::bench::run(argv[1], argc > 2 ? argv[2] : "");
+  return thermedge::bench::run(csv, photographs);
 }

@@ -1,13 +1,10 @@
-// Edges of thermedge and of its peers on frames with known edges. Writes CSV files.
-//   edges_bench OUT [--scenes N] [--only NAME] [PREPARED ...]
-// NAME: noise, single_edges, false_alarms, denoisers or scaling. PREPARED: directories with
-// raw/CONDITION/NAME.png (16 bits) and gt/NAME.npz.
+// Edges of thermedge and of its peers on frames with known edges. Writes CSV files; --help tells
+// how to call it.
 #include <fmt/core.h>
+#include <CLI/CLI.hpp>
 
 #include <array>
-#include <charconv>
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -31,58 +28,24 @@ constexpr std::array kMeasurements = {
 
 struct Command {
   BenchOptions options;
-  std::string_view only;
+  std::string only;
 };
 
-bool is_known(std::string_view name) {
+std::vector<std::string> measurement_names() {
+  std::vector<std::string> names;
   for (const Measurement& measurement : kMeasurements) {
-    if (measurement.name == name) {
-      return true;
-    }
+    names.emplace_back(measurement.name);
   }
-  return false;
+  return names;
 }
 
-std::optional<int> parse_count(std::string_view text) {
-  int count = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);
-  if (error != std::errc{} || end != text.data() + text.size() || count < 1 || count > 1000) {
-    return std::nullopt;
-  }
-  return count;
-}
-
-// Nothing, after a line that says why, where the command is wrong.
-std::optional<Command> parse(const std::vector<std::string_view>& words) {
-  Command command;
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    const bool has_value = i + 1 < words.size();
-    if (words[i] == "--scenes") {
-      const auto count = has_value ? parse_count(words[++i]) : std::nullopt;
-      if (!count) {
-        fmt::print(stderr, "edges_bench: --scenes: should be a number, 1..1000\n");
-        return std::nullopt;
-      }
-      command.options.scenes = *count;
-    } else if (words[i] == "--only") {
-      if (!has_value || !is_known(words[++i])) {
-        fmt::print(stderr,
-                   "edges_bench: --only: should be noise, single_edges, false_alarms, denoisers or "
-                   "scaling\n");
-        return std::nullopt;
-      }
-      command.only = words[i];
-    } else if (command.options.out.empty()) {
-      command.options.out = words[i];
-    } else {
-      command.options.prepared.emplace_back(words[i]);
-    }
-  }
-  if (command.options.out.empty()) {
-    fmt::print(stderr, "usage: edges_bench OUT [--scenes N] [--only NAME] [PREPARED ...]\n");
-    return std::nullopt;
-  }
-  return command;
+void declare(CLI::App& app, Command& command) {
+  app.add_option("OUT", command.options.out, "directory of the CSV files")->required();
+  app.add_option("PREPARED", command.options.prepared,
+                 "directories with raw/CONDITION/NAME.png (16 bits) and gt/NAME.npz");
+  app.add_option("--scenes", command.options.scenes, "random scenes")->check(CLI::Range(1, 1000));
+  app.add_option("--only", command.only, "a single measurement")
+      ->check(CLI::IsMember(measurement_names()));
 }
 
 int run(const Command& command) {
@@ -110,6 +73,13 @@ int run(const Command& command) {
 }  // namespace thermedge::bench
 
 int main(int argc, char** argv) {
-  const auto command = thermedge::bench::parse({argv + 1, argv + argc});
-  return command ? thermedge::bench::run(*command) : 2;
+  CLI::App app("Edges of thermedge and of its peers on frames with known edges");
+  thermedge::bench::Command command;
+  thermedge::bench::declare(app, command);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
+  return thermedge::bench::run(command);
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <array>
 #include <functional>
 #include <optional>
 #include <string>
@@ -12,6 +13,16 @@
 #include "thermedge/options.hpp"
 
 namespace thermedge::cli {
+
+// The names in a list of options.hpp, for CLI::IsMember.
+template <class E, std::size_t N>
+[[nodiscard]] std::vector<std::string> names_of(const std::array<EnumName<E>, N>& list) {
+  std::vector<std::string> names;
+  for (const EnumName<E>& entry : list) {
+    names.emplace_back(entry.name);
+  }
+  return names;
+}
 
 // --threads, --quiet, --json-log.
 struct RunOptions {

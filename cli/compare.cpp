@@ -110,7 +110,7 @@ void add_compare(CLI::App& program, int& exit_code) {
   app.add_option("--denoise", command->classical_denoiser,
                  "denoiser in front of the classical detectors (thermedge's own: --set "
                  "denoise.method=...)")
-      ->check(CLI::IsMember({"none", "gaussian", "nlm", "bm3d"}))
+      ->check(CLI::IsMember(names_of(kDenoiseMethods)))
       ->capture_default_str();
   app.add_option("--log-kernel", command->classical.log_kernel_px,
                  "side of LoG's kernel, px (0: 13; paper: 9)")

@@ -7,25 +7,14 @@
 #include "thermedge/io/config.hpp"
 
 namespace thermedge::cli {
-namespace {
-
-std::vector<std::string> preset_names() {
-  std::vector<std::string> names;
-  names.reserve(kPresets.size());
-  for (const auto& known : kPresets) {
-    names.emplace_back(known.name);
-  }
-  return names;
-}
-
-}  // namespace
+namespace {}  // namespace
 
 void DetectorCommand::add_to(CLI::App& app) {
   common.add_to(app);
   config.add_to(app);
   app.get_option("INPUT")->required(false);  // --dump-config needs none
   app.add_option("--preset", preset, "named set of defaults")
-      ->check(CLI::IsMember(preset_names()))
+      ->check(CLI::IsMember(names_of(kPresets)))
       ->capture_default_str();
   app.add_option("--keep", keep, "keep the best so many edges (ET; 0: all)")
       ->check(CLI::Range(0, 1000000000));
@@ -37,8 +26,7 @@ void DetectorCommand::add_to(CLI::App& app) {
 }
 
 void DetectorCommand::add_denoising_to(CLI::App& app) {
-  app.add_option("--denoise", denoise, "denoiser")
-      ->check(CLI::IsMember({"none", "gaussian", "nlm", "bm3d"}));
+  app.add_option("--denoise", denoise, "denoiser")->check(CLI::IsMember(names_of(kDenoiseMethods)));
   app.add_option("--sigma", sigma, "noise told to the denoiser: auto or counts");
 }
 

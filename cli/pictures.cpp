@@ -289,7 +289,7 @@ void add_denoise(CLI::App& program, int& exit_code) {
   command->config.add_to(app);
   app.get_option("-o")->required();
   app.add_option("--method", command->method, "denoiser (default bm3d)")
-      ->check(CLI::IsMember({"none", "gaussian", "nlm", "bm3d"}));
+      ->check(CLI::IsMember(names_of(kDenoiseMethods)));
   app.add_option("--sigma", command->sigma, "noise: auto or counts")->capture_default_str();
   app.callback([command, &exit_code] { exit_code = command->run(); });
 }

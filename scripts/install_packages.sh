@@ -4,9 +4,10 @@
 set -euo pipefail
 
 declare -A packages=(
-  [build]="g++ make cmake ninja-build libhwy-dev libtbb-dev libexpected-dev libpng-dev libtiff-dev
-           nlohmann-json3-dev libtomlplusplus-dev libcli11-dev libfmt-dev libgtest-dev
-           pkg-config libcairo2-dev fonts-open-sans libzip-dev libmatio-dev"
+  [build]="g++ make cmake ninja-build libhwy-dev libtbb-dev libexpected-dev libspng-dev libtiff-dev
+           nlohmann-json3-dev libtomlplusplus-dev libcli11-dev libfmt-dev libgtest-dev libeigen3-dev
+           pkg-config libcairo2-dev libfontconfig-dev fonts-open-sans libzip-dev
+           libmatio-dev"
   [check]="clang-format clang-tidy"
   [bench]="libbenchmark-dev python3-matplotlib"
 )

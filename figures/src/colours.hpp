@@ -18,11 +18,4 @@ inline constexpr Rgb kHairline = {200, 203, 208};
 // to be told apart. Any index.
 [[nodiscard]] Rgb category_colour(std::size_t index);
 
-// Cividis-like ramp for quantities: dark blue (0) over grey to yellow (1), lightness rising
-// steadily (after Nunez, Anderton, Renslow 2018). Shares are clamped.
-[[nodiscard]] Rgb quantity_colour(double share);
-
-// Diverging ramp: blue (-1) over white (0) to orange (1).
-[[nodiscard]] Rgb diverging_colour(double share);
-
 }  // namespace thermedge::figures

@@ -7,6 +7,7 @@
 
 #include "chart.hpp"
 #include "frame_panels.hpp"
+#include "thermedge/io/colour_map.hpp"
 
 namespace thermedge::figures {
 namespace {
@@ -128,14 +129,14 @@ class ProbePanels {
               const double sigma = map.sigma_counts[static_cast<std::size_t>(y) *
                                                         static_cast<std::size_t>(map.columns) +
                                                     static_cast<std::size_t>(x)];
-              tiles(x, y) = quantity_colour((sigma - low) / (high - low));
+              tiles(x, y) = io::plasma((sigma - low) / (high - low));
             }
           }
           canvas.picture(tiles.view(), box);
         });
     made.bordered = true;
     made.colour_bars = {
-        {quantity_colour, fmt::format("{:.2f}", low), fmt::format("{:.2f} {}", high, unit_)}};
+        {io::plasma, fmt::format("{:.2f}", low), fmt::format("{:.2f} {}", high, unit_)}};
     return made;
   }
 

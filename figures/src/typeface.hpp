@@ -7,7 +7,8 @@ namespace thermedge::figures {
 
 enum class Weight { kRegular, kSemibold };
 
-// A font face that the caller destroys; null where FreeType refuses it. Thread-safe.
+// Open Sans where fontconfig knows it, else its choice of a sans serif; Cairo draws letters of its
+// own where there is no font at all. The caller destroys it. Thread-safe.
 [[nodiscard]] cairo_font_face_t* make_font_face(Weight weight);
 
 }  // namespace thermedge::figures

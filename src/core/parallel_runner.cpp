@@ -30,25 +30,51 @@ void allow_more_threads_than_cores() {
       oneapi::tbb::global_control::max_allowed_parallelism, kMaxThreads);
 }
 
+#if defined(__SANITIZE_THREAD__)
+#define THERMEDGE_THREAD_SANITIZER
+#elif defined(__has_feature)
+#if __has_feature(thread_sanitizer)
+#define THERMEDGE_THREAD_SANITIZER
+#endif
+#endif
+
+#ifdef THERMEDGE_THREAD_SANITIZER
+// Repeats what oneTBB guarantees (the tasks see the caller's writes, the caller sees theirs):
+// ThreadSanitizer cannot look into the library.
+class Handover {
+ public:
+  Handover() { finished_.store(0, std::memory_order_release); }
+  ~Handover() { (void)finished_.load(std::memory_order_acquire); }
+  Handover(const Handover&) = delete;
+  Handover& operator=(const Handover&) = delete;
+  void begin_task() { (void)finished_.load(std::memory_order_acquire); }
+  void end_task() { finished_.fetch_add(1, std::memory_order_acq_rel); }
+
+ private:
+  std::atomic<int> finished_;
+};
+#else
+struct Handover {
+  void begin_task() {}
+  void end_task() {}
+};
+#endif
+
 class TbbRunner final : public ParallelRunner {
  public:
   explicit TbbRunner(int threads) : arena_(threads) {}
   void run(int count, FunctionRef task) override {
-    // The atomics repeat what oneTBB guarantees (the caller's writes are seen by the tasks, theirs
-    // by the caller): ThreadSanitizer cannot look into the library.
-    std::atomic<int> finished;
-    finished.store(0, std::memory_order_release);
+    [[maybe_unused]] Handover handover;
     arena_.execute([&] {
       oneapi::tbb::parallel_for(
           0, count, 1,
           [&](int index) {
-            (void)finished.load(std::memory_order_acquire);
+            handover.begin_task();
             task(index);
-            finished.fetch_add(1, std::memory_order_acq_rel);
+            handover.end_task();
           },
           oneapi::tbb::simple_partitioner{});
     });
-    (void)finished.load(std::memory_order_acquire);
   }
   [[nodiscard]] int threads() const override { return arena_.max_concurrency(); }
 

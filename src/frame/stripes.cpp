@@ -8,6 +8,7 @@
 #include <iterator>
 #include <span>
 
+#include "banded_cholesky.hpp"
 #include "lag_sums_simd.hpp"
 #include "order_statistics.hpp"
 #include "robust_line_fit.hpp"
@@ -239,37 +240,11 @@ void ColumnOffsets::set_up_equations(double scale, std::span<const int> jumps) {
 }
 
 // Minimises the sum over pairs of scale * weight * (c(x + lag) - c(x) - difference)^2 and of all
-// c(x)^2; pairs across a jump are left out. Banded Cholesky decomposition: each column that is done
-// is taken off those behind it.
+// c(x)^2; pairs across a jump are left out.
 void ColumnOffsets::solve(double scale, std::span<const int> jumps, std::span<double> result) {
   set_up_equations(scale, jumps);
-  for (int x = 0; x < columns_; ++x) {
-    double* column = &band_[index(x * kBandWidth)];
-    double* right = &right_side_[index(x)];
-    column[0] = std::sqrt(column[0]);
-    right[0] /= column[0];
-    for (int i = 1; i <= kLargestLag; ++i) {
-      column[i] /= column[0];
-    }
-#pragma GCC unroll 8
-    for (int i = 1; i <= kLargestLag; ++i) {
-      double* other = column + i * kBandWidth - i;
-#pragma GCC unroll 8
-      for (int j = i; j <= kLargestLag; ++j) {
-        other[j] -= column[j] * column[i];
-      }
-      right[i] -= column[i] * right[0];
-    }
-  }
-  for (int x = columns_ - 1; x >= 0; --x) {
-    const double* column = &band_[index(x * kBandWidth)];
-    double* right = &right_side_[index(x)];
-    for (int i = 1; i <= kLargestLag; ++i) {
-      right[0] -= column[i] * right[i];
-    }
-    right[0] /= column[0];
-    result[index(x)] = right[0];
-  }
+  detail::solve_banded<kLargestLag>(band_, right_side_);
+  std::copy_n(right_side_.begin(), columns_, result.begin());
 }
 
 // Of the white part of a profile: the MAD of its second differences, of which a jump spoils two.

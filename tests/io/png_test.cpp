@@ -121,6 +121,23 @@ TEST(Png, SkipsTextsButTestsTheirChecksums) {
   EXPECT_TRUE(error_of(decoded(png_file(parts))).starts_with("file: damaged PNG: "));
 }
 
+TEST(Png, RefusesTextsThatWouldFillMemory) {
+  const auto with = [](const std::string& chunks) {
+    return decoded(png_file({.before_pixels = chunks, .rows = "\0\x05"s}));
+  };
+  const std::string refusal =
+      "file: damaged PNG: more than 1000 texts, or 16 MiB of texts and profiles";
+  const std::string small = png_chunk("tEXt", "Title\0text"s);
+  std::string many;
+  for (int i = 0; i < 1000; ++i) {
+    many += small;
+  }
+  EXPECT_EQ(pixels_of(with(many)), std::vector{5});
+  EXPECT_EQ(error_of(with(many + small)), refusal);
+  const std::string large = "Title\0"s + std::string(std::size_t{16} << 20, 'x');
+  EXPECT_EQ(error_of(with(png_chunk("tEXt", large))), refusal);
+}
+
 TEST(Png, IgnoresWhatFollowsButMissesTheEnd) {
   const std::string file = png_file({.rows = "\0\x05"s});
   EXPECT_EQ(pixels_of(decoded(file + "more")), std::vector{5});

@@ -13,8 +13,8 @@ namespace thermedge::io {
 // frame whose range is under 16 counts is spread over 16, so that noise is not blown up).
 void draw_view(ImageView<const std::uint16_t> counts, ImageView<std::uint8_t> view);
 
-// Colour of a rank: `share` 0 (best) .. 1 (last) runs from yellow over orange and magenta to
-// violet; its lightness falls steadily, so it also reads in grey and for the colour-blind.
+// Colour of a rank: `share` 0 (best) .. 1 (last) runs from the yellow end of `plasma` over
+// orange to purple, the darkest part left out.
 [[nodiscard]] Rgb rank_colour(double share);
 
 // The frame (or the edge map, where there is no frame) enlarged twice, darkened, with the kept

@@ -1,9 +1,10 @@
 #include "thermedge/io/overlay.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <vector>
+
+#include "thermedge/io/colour_map.hpp"
 
 namespace thermedge::io {
 namespace {
@@ -40,10 +41,6 @@ Stretch percentile_stretch(ImageView<const std::uint16_t> counts) {
     stretch.high = stretch.low + kLeastRangeCounts;
   }
   return stretch;
-}
-
-std::uint8_t blend(int from, int to, double share) {
-  return static_cast<std::uint8_t>(std::lround(from + (to - from) * share));
 }
 
 // Draws on the enlarged picture in coordinates of the frame; what lies outside is left out.
@@ -108,7 +105,8 @@ void draw_background(const Detection& detection, ImageView<Rgb> picture) {
   }
   for (int y = 0; y < picture.height(); ++y) {
     for (int x = 0; x < picture.width(); ++x) {
-      const auto grey = blend(20, 200, view(x / kScale, y / kScale) / 255.0);
+      const auto grey =
+          static_cast<std::uint8_t>(std::lround(20 + 180 * (view(x / kScale, y / kScale) / 255.0)));
       picture(x, y) = {grey, grey, grey};
     }
   }
@@ -146,14 +144,8 @@ void draw_view(ImageView<const std::uint16_t> counts, ImageView<std::uint8_t> vi
 }
 
 Rgb rank_colour(double share) {
-  static constexpr std::array<Rgb, 4> kStops = {Rgb{252, 236, 80}, Rgb{250, 150, 50},
-                                                Rgb{220, 70, 120}, Rgb{140, 60, 190}};
-  const double position = std::clamp(share, 0.0, 1.0) * (kStops.size() - 1);
-  const auto stop = std::min(static_cast<std::size_t>(position), kStops.size() - 2);
-  const double within = position - static_cast<double>(stop);
-  const Rgb a = kStops[stop];
-  const Rgb b = kStops[stop + 1];
-  return {blend(a.r, b.r, within), blend(a.g, b.g, within), blend(a.b, b.b, within)};
+  constexpr double kLast = 0.4;  // darker ones would be lost on the darkened frame
+  return plasma(1 - (1 - kLast) * std::clamp(share, 0.0, 1.0));
 }
 
 void draw_overlay(const Detection& detection, Image<Rgb>& overlay) {
