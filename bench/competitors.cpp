@@ -174,7 +174,7 @@ WholeDetector ours(const DetectorOptions& options) {
   on_one_thread.threads = 1;
   const auto detector = std::make_shared<Detector>(value_or_exit(Detector::create(on_one_thread)));
   return [detector](Counts counts, Map map) {
-    draw_mask(value_or_exit(detector->detect(counts))->edges, map);
+    draw_mask(value_or_exit(detector->detect(counts)).edges, map);
   };
 }
 
@@ -184,7 +184,7 @@ std::vector<Competitor> all_competitors() {
   for (const auto& preset : kPresets) {
     all.push_back({"thermedge " + std::string(preset.name),
                    "thermedge",
-                   ours(preset_options(preset.value)),
+                   ours(DetectorOptions(preset.value)),
                    {},
                    {}});
   }

@@ -27,7 +27,7 @@ void add_row(const Frames& frames, const std::string& denoiser, const Competitor
 
 // Everything of preset `paper` behind the denoiser.
 Finder paper_behind() {
-  DetectorOptions options = preset_options(Preset::kPaper);
+  DetectorOptions options = DetectorOptions(Preset::kPaper);
   options.denoise.method = DenoiseMethod::kNone;
   options.threads = 1;
   const auto detector = std::make_shared<Detector>(value_or_exit(Detector::create(options)));
@@ -61,7 +61,7 @@ void measure_denoisers(const BenchOptions& options) {
                                        {"Gaussian", DenoiseMethod::kGaussian},
                                        {"NL-means", DenoiseMethod::kNlm},
                                        {"BM3D", DenoiseMethod::kBm3d}}) {
-      DetectorOptions robust = preset_options(Preset::kRobust);
+      DetectorOptions robust = DetectorOptions(Preset::kRobust);
       robust.denoise.method = method;
       add_row(frames, name, {"thermedge robust", "thermedge", ours(robust), {}, {}}, csv);
     }

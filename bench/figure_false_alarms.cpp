@@ -24,7 +24,7 @@ double false_edges(const DetectorOptions& options, Emptiness kind, double sigma,
   std::size_t edges = 0;
   for (int frame = 0; frame < frames; ++frame) {
     const auto counts = empty_frame(kind, sigma, 9000 + static_cast<unsigned>(frame));
-    edges += value_or_exit(detector.detect(counts))->edges.kept;
+    edges += value_or_exit(detector.detect(counts)).edges.kept;
   }
   return static_cast<double>(edges) / frames;
 }
@@ -36,20 +36,20 @@ void measure_false_alarms(const BenchOptions& options) {
   Csv csv(options.out + "/false_alarms.csv",
           "preset,frame,noise_counts,max_false_alarms,frames,edges_per_frame");
   const auto add = [&](const DetectorOptions& detector, const Kind& kind, double sigma, int count) {
-    csv.add(fmt::format("{},{},{},{},{},{:.4f}", preset_name(detector.preset), kind.name, sigma,
+    csv.add(fmt::format("{},{},{},{},{},{:.4f}", preset_name(detector.preset()), kind.name, sigma,
                         detector.selection.max_false_alarms, count,
                         false_edges(detector, kind.kind, sigma, count)));
   };
   for (const auto& preset : kPresets) {
     for (const Kind& kind : kKinds) {
       for (const double sigma : {1.0, 3.0, 10.0, 30.0, 100.0}) {
-        add(preset_options(preset.value), kind, sigma, frames);
+        add(DetectorOptions(preset.value), kind, sigma, frames);
       }
     }
   }
   for (const Preset preset : {Preset::kRobust, Preset::kFast}) {
     for (const double most : {0.01, 0.03, 0.1, 0.3, 1.0}) {
-      DetectorOptions detector = preset_options(preset);
+      DetectorOptions detector = DetectorOptions(preset);
       detector.selection.max_false_alarms = most;
       for (const Kind& kind : kKinds) {
         add(detector, kind, 20, 2 * frames);

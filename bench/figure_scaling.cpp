@@ -39,7 +39,7 @@ Size prepare(int width, int height) {
   size.counts = std::move(value_or_exit(sim::render(scene, 0)).counts);
   for (const auto& preset : kPresets) {
     for (const int threads : {1, 2}) {
-      DetectorOptions options = preset_options(preset.value);
+      DetectorOptions options = DetectorOptions(preset.value);
       options.threads = threads;
       size.all.push_back({preset.value, threads, value_or_exit(Detector::create(options)), {}, {}});
     }
@@ -60,7 +60,7 @@ void run_round(Size& size) {
 
 void add_rows(Size& size, Csv& csv) {
   for (Runs& runs : size.all) {
-    std::string row = fmt::format("{},{},{},{},{:.4f}", preset_name(runs.preset), runs.threads,
+    std::string row = fmt::format("{},{},{},{},{:.4f}", preset_name(runs.preset()), runs.threads,
                                   size.counts.width(), size.counts.height(), median(runs.total_ms));
     for (const Stage& stage : kStages) {
       row += fmt::format(",{:.4f}", median(runs.stages_ms[stage.name]));

@@ -73,7 +73,7 @@ std::vector<Entrant> entrants() {
   std::vector<Entrant> all;
   for (const Preset preset : {Preset::kRobust, Preset::kFast}) {
     all.push_back({"thermedge " + std::string(preset_name(preset)), "defaults", false,
-                   ours(preset_options(preset))});
+                   ours(DetectorOptions(preset))});
   }
   std::vector<Image<std::uint16_t>> frames;
   for (std::uint64_t seed = 1; seed <= kEmptyFrames; ++seed) {

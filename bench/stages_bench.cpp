@@ -25,7 +25,7 @@ void detect(benchmark::State& state, DetectorOptions options) {
     const auto detection = detector->detect(frame->counts);
     benchmark::DoNotOptimize(detection);
     for (const Stage& stage : kStages) {
-      sum.*stage.ms += (*detection)->ms.*stage.ms;
+      sum.*stage.ms += detection->ms.*stage.ms;
     }
   }
   for (const Stage& stage : kStages) {
@@ -37,10 +37,10 @@ void detect(benchmark::State& state, DetectorOptions options) {
 void register_all() {
   std::vector<std::pair<std::string, DetectorOptions>> settings;
   for (const auto& preset : kPresets) {
-    settings.emplace_back(preset.name, preset_options(preset.value));
+    settings.emplace_back(preset.name, DetectorOptions(preset.value));
   }
   for (const auto& method : kDenoiseMethods) {
-    DetectorOptions options = preset_options(Preset::kPaper);
+    DetectorOptions options = DetectorOptions(Preset::kPaper);
     options.denoise.method = method.value;
     settings.emplace_back("paper/" + std::string(method.name), options);
   }

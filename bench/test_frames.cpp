@@ -169,7 +169,7 @@ std::vector<TestFrame> prepared(const std::string& directory, const std::string&
   const auto source = value_or_exit(io::open_files({directory + "/raw/" + condition}, {}));
   const auto truth = value_or_exit(eval::GroundTruthSet::open(directory + "/gt", {}));
   std::vector<TestFrame> frames;
-  io::Frame frame;
+  io::SourceFrame frame;
   while (static_cast<int>(frames.size()) < most && value_or_exit(source->next(frame))) {
     TestFrame test;
     test.truth = std::move(value_or_exit(truth.read(frame.stem, frames.size())).maps);

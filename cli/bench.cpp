@@ -38,6 +38,7 @@ struct Samples {
 
 struct BenchResult {
   int width = 0, height = 0, threads = 0;
+  std::string simd;
   std::vector<Samples> stages;  // and the whole frame as the last
   [[nodiscard]] std::size_t frames() const { return stages.back().ms.size(); }
 };
@@ -48,17 +49,19 @@ struct BenchCommand : DetectorCommand {
   bool json = false;
 
   [[nodiscard]] int time_stages() const;
-  [[nodiscard]] std::vector<io::Frame> read(const io::SourceOptions& source, Console& report) const;
-  [[nodiscard]] Result<BenchResult> time(const std::vector<io::Frame>& frames,
+  [[nodiscard]] std::vector<io::SourceFrame> read(const io::SourceOptions& source,
+                                                  Console& report) const;
+  [[nodiscard]] Result<BenchResult> time(const std::vector<io::SourceFrame>& frames,
                                          const DetectorOptions& options) const;
 };
 
 // Frames of one size, in memory, so that files are not timed.
-std::vector<io::Frame> BenchCommand::read(const io::SourceOptions& source, Console& report) const {
-  std::vector<io::Frame> frames;
+std::vector<io::SourceFrame> BenchCommand::read(const io::SourceOptions& source,
+                                                Console& report) const {
+  std::vector<io::SourceFrame> frames;
   const auto input = open_inputs(common.inputs, source);
   while (frames.size() < static_cast<std::size_t>(most_frames)) {
-    io::Frame frame;
+    io::SourceFrame frame;
     const auto more = input->next(frame);
     if (!more) {
       report.error(more.error().message);
@@ -75,20 +78,18 @@ std::vector<io::Frame> BenchCommand::read(const io::SourceOptions& source, Conso
   return frames;
 }
 
-Result<BenchResult> BenchCommand::time(const std::vector<io::Frame>& frames,
+Result<BenchResult> BenchCommand::time(const std::vector<io::SourceFrame>& frames,
                                        const DetectorOptions& options) const {
   auto detector = Detector::create(options);
   if (!detector) {
     return tl::unexpected(detector.error());
   }
   BenchResult result;
-  for (const Stage& stage : kStages) {
-    result.stages.push_back({std::string(stage.name), {}});
-  }
-  result.stages.push_back({"total", {}});
   result.width = frames[0].counts.width();
   result.height = frames[0].counts.height();
-  result.threads = make_runner(options.threads)->threads();
+  result.threads = detector->threads();
+  result.simd = SimdTarget::named(options.simd)->name();
+  Detection detection;
 
   constexpr std::size_t kWarmUp = 2;  // frames after which nothing is allocated any more
   Clock::time_point start;
@@ -98,16 +99,22 @@ Result<BenchResult> BenchCommand::time(const std::vector<io::Frame>& frames,
     } else if (i >= kWarmUp + frames.size() && ms_since(start) >= 1000 * seconds) {
       return result;
     }
-    const io::Frame& frame = frames[i % frames.size()];
+    const io::SourceFrame& frame = frames[i % frames.size()];
     const auto before = Clock::now();
-    const auto detection = detector->detect(frame.counts, frame.bits);
+    const Status status = detector->detect(frame.frame(), detection);
     const double total = ms_since(before);
-    if (!detection) {
-      return tl::unexpected(detection.error());
+    if (!status) {
+      return tl::unexpected(status.error());
+    }
+    if (result.stages.empty()) {
+      for (const StageTime& time : detection.times) {
+        result.stages.push_back({std::string(time.stage), {}});
+      }
+      result.stages.push_back({"total", {}});
     }
     if (i >= kWarmUp) {
-      for (std::size_t s = 0; s < kStages.size(); ++s) {
-        result.stages[s].ms.push_back((*detection)->ms.*kStages[s].ms);
+      for (std::size_t s = 0; s < detection.times.size(); ++s) {
+        result.stages[s].ms.push_back(detection.times[s].ms);
       }
       result.stages.back().ms.push_back(total);
     }
@@ -126,7 +133,7 @@ void print_json(BenchResult& result) {
   const Json document = {{"width", result.width},
                          {"height", result.height},
                          {"threads", result.threads},
-                         {"simd", simd_target()},
+                         {"simd", result.simd},
                          {"frames", result.frames()},
                          {"stages", stages},
                          {"total", times(result.stages.back())},
@@ -136,10 +143,10 @@ void print_json(BenchResult& result) {
 
 void print_table(BenchResult& result) {
   fmt::print("{}x{} pixels, {} thread{}, {}, {} frames timed\n\n", result.width, result.height,
-             result.threads, result.threads == 1 ? "" : "s", simd_target(), result.frames());
-  fmt::print("{:<10}{:>12}{:>12}\n", "stage", "median ms", "p99 ms");
+             result.threads, result.threads == 1 ? "" : "s", result.simd, result.frames());
+  fmt::print("{:<14}{:>12}{:>12}\n", "stage", "median ms", "p99 ms");
   for (Samples& stage : result.stages) {
-    fmt::print("{:<10}{:>12.3f}{:>12.3f}\n", stage.name, stage.quantile(0.5), stage.quantile(0.99));
+    fmt::print("{:<14}{:>12.3f}{:>12.3f}\n", stage.name, stage.quantile(0.5), stage.quantile(0.99));
   }
   Samples& total = result.stages.back();
   fmt::print(
@@ -154,7 +161,7 @@ int BenchCommand::time_stages() const {
       return report.fail({ErrorCode::kInvalidArgument,
                           "-o: bench prints on standard output; redirect it to a file"});
     }
-    const std::vector<io::Frame> frames = read(source, report);
+    const std::vector<io::SourceFrame> frames = read(source, report);
     if (frames.empty()) {
       return report.exit_code();
     }

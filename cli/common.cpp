@@ -39,6 +39,17 @@ Result<std::string> in_directory(const std::filesystem::path& directory, const s
   return (directory / name).string();
 }
 
+template <class Options>
+Status apply_settings(const std::vector<std::string>& settings, Options& options) {
+  for (const std::string& setting : settings) {
+    if (Status status = io::apply_setting(setting, options); !status) {
+      status.error().message = "--set " + status.error().message;
+      return status;
+    }
+  }
+  return {};
+}
+
 }  // namespace
 
 void RunOptions::add_to(CLI::App& app) {
@@ -73,10 +84,11 @@ Result<io::SourceOptions> CommonOptions::prepare() const {
       return tl::unexpected(status.error());
     }
   }
-  return set_simd_target(simd).map([&] { return options; }).map_error([](Error error) {
-    error.message = "--simd: " + error.message;
-    return error;
-  });
+  const auto target = SimdTarget::named(simd);
+  if (!target) {
+    return failure(target.error().code, "--simd: " + target.error().message);
+  }
+  return options;
 }
 
 void ConfigOptions::add_to(CLI::App& app) {
@@ -87,19 +99,20 @@ void ConfigOptions::add_to(CLI::App& app) {
   app.add_flag("--dump-config", dump, "print all options as TOML and stop");
 }
 
-Status ConfigOptions::apply(DetectorOptions& options) const {
+Status ConfigOptions::apply(io::PresetChoice choice, DetectorOptions& options) const {
+  Status status;
   if (!file.empty()) {
-    if (Status status = io::load_config(file, options); !status) {
-      return status;
-    }
+    status = io::load_config(file, choice, options);
   }
-  for (const std::string& setting : settings) {
-    if (Status status = io::apply_setting(setting, options); !status) {
-      status.error().message = "--set " + status.error().message;
-      return status;
-    }
+  return status.and_then([&] { return apply_settings(settings, options); });
+}
+
+Status ConfigOptions::apply(FrameDenoiserOptions& options) const {
+  Status status;
+  if (!file.empty()) {
+    status = io::load_config(file, options);
   }
-  return {};
+  return status.and_then([&] { return apply_settings(settings, options); });
 }
 
 Result<double> parse_sigma(const std::string& text) {
@@ -117,9 +130,9 @@ Result<double> parse_sigma(const std::string& text) {
 }
 
 int for_each_frame(const CommonOptions& common, const io::SourceOptions& source, Console& report,
-                   const std::function<Status(const io::Frame&)>& handle) {
+                   const std::function<Status(const io::SourceFrame&)>& handle) {
   const auto frames = open_inputs(common.inputs, source);
-  io::Frame frame;
+  io::SourceFrame frame;
   for (std::size_t done = 1;; ++done) {
     const auto more = frames->next(frame);
     if (!more) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "console.hpp"
+#include "thermedge/io/config.hpp"
 #include "thermedge/io/source.hpp"
 #include "thermedge/options.hpp"
 
@@ -43,7 +44,7 @@ struct CommonOptions : RunOptions {
   std::string simd = "auto";
 
   void add_to(CLI::App& app);
-  // Checks what the parser can't and selects the SIMD target. Failures are usage errors.
+  // Checks what the parser can't. Failures are usage errors.
   [[nodiscard]] Result<io::SourceOptions> prepare() const;
 };
 
@@ -54,8 +55,10 @@ struct ConfigOptions {
   bool dump = false;
 
   void add_to(CLI::App& app);
-  // Preset, then the file, then --set, each over the one before.
-  [[nodiscard]] Status apply(DetectorOptions& options) const;
+  // The file, then --set, each over what was before. `choice`: whether the file may choose the
+  // preset.
+  [[nodiscard]] Status apply(io::PresetChoice choice, DetectorOptions& options) const;
+  [[nodiscard]] Status apply(FrameDenoiserOptions& options) const;
 };
 
 // --sigma auto|COUNTS: 0 stands for auto.
@@ -65,7 +68,7 @@ struct ConfigOptions {
 // and the next frame follows. Returns the exit code.
 [[nodiscard]] int for_each_frame(const CommonOptions& common, const io::SourceOptions& source,
                                  Console& report,
-                                 const std::function<Status(const io::Frame&)>& handle);
+                                 const std::function<Status(const io::SourceFrame&)>& handle);
 
 // Where results of several frames go: DIR/<kind>/<stem><ending>, DIR/<stem><ending> where kind
 // is empty, or a folder for each frame, DIR/<stem>/<name>. Makes the directories; stems that occur

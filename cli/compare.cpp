@@ -31,7 +31,9 @@ Result<figures::ComparisonOptions> CompareCommand::comparison(
   figures::ComparisonOptions options;
   options.detector = detector;
   options.classical = classical;
-  options.classical.canny = detector.canny;
+  if (const PaperOptions* paper = detector.paper()) {
+    options.classical.canny = paper->canny;
+  }
   options.panel_width = panel_width;
   for (const auto& known : kDenoiseMethods) {
     if (known.name == classical_denoiser) {
@@ -91,7 +93,7 @@ int CompareCommand::draw() const {
     if (!sheet) {
       return report.fail(sheet.error());
     }
-    return for_each_frame(common, source, report, [&](const io::Frame& frame) {
+    return for_each_frame(common, source, report, [&](const io::SourceFrame& frame) {
       return output->begin_frame(frame.stem)
           .and_then([&] { return sheet->draw(frame.counts, frame.bits, frame.source); })
           .and_then([&](const figures::Comparison& made) { return write(made, *wanted, *output); });

@@ -7,26 +7,29 @@
 #include "thermedge/io/config.hpp"
 
 namespace thermedge::cli {
-namespace {}  // namespace
+namespace {
+
+void add_flags(bool of_denoising, DetectorCommand& command, CLI::App& app) {
+  for (std::size_t i = 0; i < kFlags.size(); ++i) {
+    if (kFlags[i].of_denoising == of_denoising) {
+      app.add_option(kFlags[i].flag, command.flags[i], kFlags[i].help);
+    }
+  }
+}
+
+}  // namespace
 
 void DetectorCommand::add_to(CLI::App& app) {
   common.add_to(app);
   config.add_to(app);
   app.get_option("INPUT")->required(false);  // --dump-config needs none
-  app.add_option("--preset", preset, "named set of defaults")
-      ->check(CLI::IsMember(names_of(kPresets)))
-      ->capture_default_str();
-  app.add_option("--keep", keep, "keep the best so many edges (ET; 0: all)")
-      ->check(CLI::Range(0, 1000000000));
-  app.add_option("--max-edgels", max_edgels, "most edgels in the kept edges (0: any number)")
-      ->check(CLI::Range(0, 1000000000));
-  app.add_option("--max-false-alarms", max_false_alarms,
-                 "false edges in a frame of noise that are put up with, on average (0: no test)")
-      ->check(CLI::Range(0.0, 1e9));
+  app.add_option("--preset", preset, "named set of defaults: robust, fast or paper")
+      ->check(CLI::IsMember(names_of(kPresets)));
+  add_flags(false, *this, app);
 }
 
 void DetectorCommand::add_denoising_to(CLI::App& app) {
-  app.add_option("--denoise", denoise, "denoiser")->check(CLI::IsMember(names_of(kDenoiseMethods)));
+  add_flags(true, *this, app);
   app.add_option("--sigma", sigma, "noise told to the denoiser: auto or counts");
 }
 
@@ -34,30 +37,30 @@ Result<DetectorOptions> DetectorCommand::options() const {
   DetectorOptions options;
   for (const auto& known : kPresets) {
     if (known.name == preset) {
-      options = preset_options(known.value);
+      options = DetectorOptions(known.value);
     }
   }
-  if (Status status = config.apply(options); !status) {
-    return tl::unexpected(status.error());
+  Status status =
+      config.apply(preset ? io::PresetChoice::kFixed : io::PresetChoice::kFree, options);
+  for (std::size_t i = 0; i < kFlags.size() && status; ++i) {
+    if (flags[i]) {
+      status = io::apply_setting(std::string(kFlags[i].option) + "=" + *flags[i], options)
+                   .map_error([&](Error error) {
+                     error.message = std::string(kFlags[i].flag) + ": " + error.message;
+                     return error;
+                   });
+    }
+  }
+  if (sigma && status) {
+    status = parse_sigma(*sigma).map([&](double counts) { options.denoise.sigma_counts = counts; });
   }
   if (common.threads != 0) {
     options.threads = common.threads;
   }
-  options.selection.keep_edges = keep.value_or(options.selection.keep_edges);
-  options.selection.max_edgels = max_edgels.value_or(options.selection.max_edgels);
-  options.selection.max_false_alarms =
-      max_false_alarms.value_or(options.selection.max_false_alarms);
-  if (denoise) {
-    if (Status status = io::apply_setting("denoise.method=" + *denoise, options); !status) {
-      return tl::unexpected(status.error());
-    }
-  }
-  if (sigma) {
-    const Result<double> counts = parse_sigma(*sigma);
-    if (!counts) {
-      return tl::unexpected(counts.error());
-    }
-    options.denoise.sigma_counts = *counts;
+  options.simd = common.simd;
+  status = status.and_then([&] { return options.check(); });
+  if (!status) {
+    return tl::unexpected(status.error());
   }
   return options;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <array>
 #include <functional>
 #include <optional>
 #include <string>
@@ -11,17 +12,30 @@
 
 namespace thermedge::cli {
 
+// Flags for options that are used often: the last word of the option's name, or an alias.
+struct OptionFlag {
+  const char* flag;
+  const char* option;
+  const char* help;
+  bool of_denoising;
+};
+inline constexpr std::array kFlags = {
+    OptionFlag{"--keep", "selection.keep_edges", "keep the best N edges (ET; 0: all)", false},
+    OptionFlag{"--max-edgels", "selection.max_edgels",
+               "most edgels in the kept edges (0: any number)", false},
+    OptionFlag{"--max-false-alarms", "selection.max_false_alarms",
+               "false edges accepted in a frame of noise, on average (0: no test)", false},
+    OptionFlag{"--denoise", "denoise.method", "denoiser: none, gaussian, nlm or bm3d", true}};
+
 // The options of a command that runs the detector on frames: the common ones and --preset,
 // --config, --set, --dump-config, --keep, --max-edgels, --max-false-alarms; --denoise and --sigma
 // where a frame is denoised.
 struct DetectorCommand {
   CommonOptions common;
   ConfigOptions config;
-  std::string preset{preset_name(DetectorOptions{}.preset)};
-  std::optional<int> keep;
-  std::optional<int> max_edgels;
-  std::optional<double> max_false_alarms;
-  std::optional<std::string> denoise;
+  std::optional<std::string> preset;
+  // Values of the flags that stand for one option each, by their place in kFlags.
+  std::array<std::optional<std::string>, kFlags.size()> flags;
   std::optional<std::string> sigma;
 
   void add_to(CLI::App& app);

@@ -21,7 +21,7 @@ class SimSource final : public io::FrameSource {
         renderer_(std::move(renderer)),
         runner_(make_runner(0)) {}
 
-  Result<bool> next(io::Frame& frame) override {
+  Result<bool> next(io::SourceFrame& frame) override {
     if (index_ >= frames_) {
       return false;
     }
@@ -73,7 +73,7 @@ class InputChain final : public io::FrameSource {
     }
   }
 
-  Result<bool> next(io::Frame& frame) override {
+  Result<bool> next(io::SourceFrame& frame) override {
     while (current_ < inputs_.size()) {
       auto& input = inputs_[current_];
       if (!input) {

@@ -21,6 +21,7 @@ struct ProbeCommand {
   CommonOptions common;
   ProbeOptions probe;
   std::string camera;
+  std::string preset{preset_name(Preset::kRobust)};
   std::string toml;
   double panel_width = figures::kPanelWidth;
   bool json = false;
@@ -40,10 +41,13 @@ int ProbeCommand::run() const {
     return report.fail(source.error());
   }
   ProbeOptions options = probe;
+  for (const auto& known : kPresets) {
+    options.preset = known.name == preset ? known.value : options.preset;
+  }
   if (!camera.empty()) {
     const auto model = parse_counts_model(camera);
     if (!model) {
-      return report.fail({model.error().code, "--camera: " + model.error().message});
+      return report.fail({model.error().code, "--camera: " + model.error().message, {}});
     }
     options.camera = *model;
   }
@@ -55,7 +59,7 @@ int ProbeCommand::run() const {
   RecordingProbe recording(options);
   Image<std::uint16_t> first_frame;
   const int exit_code =
-      for_each_frame(common, *source, report, [&](const io::Frame& frame) -> Status {
+      for_each_frame(common, *source, report, [&](const io::SourceFrame& frame) -> Status {
         if (first_frame.empty()) {
           first_frame = frame.counts.clone();
         }
@@ -112,6 +116,9 @@ void add_probe(CLI::App& program, int& exit_code) {
                  "linear:DEGC_PER_COUNT,DEGC_AT_ZERO or planck:R1,B,F,O,R2")
       ->excludes(worth);
   FigureOutput::add_panel_width_to(app, command->panel_width);
+  app.add_option("--preset", command->preset, "preset whose options are suggested")
+      ->check(CLI::IsMember(names_of(kPresets)))
+      ->capture_default_str();
   app.add_flag("--json", command->json, "everything as one JSON object");
   app.add_option("--toml", command->toml, "file for the suggested options, for detect --config");
   app.callback([command, &exit_code] { exit_code = command->run(); });

@@ -38,15 +38,18 @@ std::string_view kind_of_file(const std::string& output) {
   return ending == ".png" ? "mask" : ending == ".json" ? "json" : ending == ".svg" ? "svg" : "";
 }
 
-std::string summary(const Detection& detection, const io::ResultLabel& label) {
+std::string summary(const Detection& detection, const std::string& source) {
   std::size_t edgels = 0;
   for (const Edge& edge : detection.edges.kept_edges()) {
     edgels += edge.edgels.count;
   }
-  return fmt::format("{}: {}x{}, sigma {:.2f} counts, {} of {} edges kept, {} edgels, {:.1f} ms",
-                     label.source, detection.width, detection.height, detection.sigma_counts,
+  const std::string note = detection.no_false_alarm_model.empty()
+                               ? ""
+                               : fmt::format("; false alarms {}", detection.no_false_alarm_model);
+  return fmt::format("{}: {}x{}, sigma {:.2f} counts, {} of {} edges kept, {} edgels, {:.1f} ms{}",
+                     source, detection.width, detection.height, detection.sigma_counts,
                      detection.edges.kept, detection.edges.edges.size(), edgels,
-                     detection.ms.total());
+                     total_ms(detection.times), note);
 }
 
 }  // namespace
@@ -79,22 +82,22 @@ Result<ResultWriter> ResultWriter::create(const std::string& output, const std::
   return ResultWriter(Mode::kDirectory, output, std::move(list));
 }
 
-Status ResultWriter::write(const Detection& detection, const io::ResultLabel& label,
-                           const std::string& stem) {
+Status ResultWriter::write(const Detection& detection, ImageView<const std::uint16_t> counts,
+                           const std::string& source, const std::string& stem) {
   ++written_;
   switch (mode_) {
     case Mode::kSummary:
-      fmt::print("{}\n", summary(detection, label));
+      fmt::print("{}\n", summary(detection, source));
       return {};
     case Mode::kJsonLines:
-      fmt::print("{}", io::edges_to_json(detection, label));
+      fmt::print("{}", io::edges_to_json(detection, source));
       return {};
     case Mode::kOneFile:
       if (written_ > 1) {
         return failure(ErrorCode::kInvalidArgument,
                        output_ + " holds the first frame; for several give -o DIR and --write");
       }
-      return write_kind(kinds_.front(), output_, detection, label);
+      return write_kind(kinds_.front(), output_, detection, counts, source);
     case Mode::kDirectory:
       break;
   }
@@ -102,7 +105,7 @@ Status ResultWriter::write(const Detection& detection, const io::ResultLabel& la
   for (const std::string& kind : kinds_) {
     Status status = directory_.path(kind, std::string(find_kind(kind)->ending))
                         .and_then([&](const std::string& path) {
-                          return write_kind(kind, path, detection, label);
+                          return write_kind(kind, path, detection, counts, source);
                         });
     if (!status) {
       return status;
@@ -112,17 +115,18 @@ Status ResultWriter::write(const Detection& detection, const io::ResultLabel& la
 }
 
 Status ResultWriter::write_kind(const std::string& kind, const std::string& path,
-                                const Detection& detection, const io::ResultLabel& label) {
+                                const Detection& detection, ImageView<const std::uint16_t> counts,
+                                const std::string& source) {
   const int width = detection.width;
   const int height = detection.height;
   if (kind == "json") {
-    return io::write_file(path, io::edges_to_json(detection, label));
+    return io::write_file(path, io::edges_to_json(detection, source));
   }
   if (kind == "svg") {
-    return io::write_file(path, io::edges_to_svg(detection, label));
+    return io::write_file(path, io::edges_to_svg(detection, source));
   }
   if (kind == "overlay") {
-    io::draw_overlay(detection, colour_);
+    io::draw_overlay(detection, counts, colour_);
     return io::write_picture(path, ImageView<const io::Rgb>(colour_.view()));
   }
   if (kind == "mask" || kind == "strength") {

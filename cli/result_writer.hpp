@@ -25,14 +25,16 @@ class ResultWriter {
   [[nodiscard]] static Result<ResultWriter> create(const std::string& output,
                                                    const std::string& kinds);
 
-  [[nodiscard]] Status write(const Detection& detection, const io::ResultLabel& label,
-                             const std::string& stem);
+  // `counts`: what an overlay lies on; empty where there is no frame.
+  [[nodiscard]] Status write(const Detection& detection, ImageView<const std::uint16_t> counts,
+                             const std::string& source, const std::string& stem);
 
  private:
   enum class Mode { kSummary, kJsonLines, kOneFile, kDirectory };
   ResultWriter(Mode mode, std::string output, std::vector<std::string> kinds);
   [[nodiscard]] Status write_kind(const std::string& kind, const std::string& path,
-                                  const Detection& detection, const io::ResultLabel& label);
+                                  const Detection& detection, ImageView<const std::uint16_t> counts,
+                                  const std::string& source);
 
   Mode mode_;
   std::string output_;

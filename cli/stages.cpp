@@ -37,7 +37,7 @@ int StagesCommand::draw() const {
     if (!sheet) {
       return report.fail(sheet.error());
     }
-    return for_each_frame(common, source, report, [&](const io::Frame& frame) {
+    return for_each_frame(common, source, report, [&](const io::SourceFrame& frame) {
       return output->begin_frame(frame.stem)
           .and_then([&] { return sheet->draw(frame.counts, frame.bits, frame.source); })
           .and_then([&](const figures::StagesFigures& made) { return write(made, *output); });

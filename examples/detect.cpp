@@ -21,15 +21,13 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "%s\n", detector.error().message.c_str());
     return 1;
   }
-  const auto detection = detector->detect(frame->counts, frame->bits);
+  const auto detection = detector->detect(frame->frame());
   if (!detection) {
     std::fprintf(stderr, "%s\n", detection.error().message.c_str());
     return 1;
   }
-  for (const thermedge::Edge& edge :
-       (*detection)
-           ->edges.kept_edges()
-           .first(std::min<std::size_t>(10, (*detection)->edges.kept))) {
+  const auto kept = detection->kept_edges();
+  for (const thermedge::Edge& edge : kept.first(std::min<std::size_t>(10, kept.size()))) {
     std::printf("edge %d: %.0f px, %.0f counts of contrast, %s\n", edge.index, edge.length_px,
                 edge.contrast_counts, edge.closed ? "closed" : "open");
   }

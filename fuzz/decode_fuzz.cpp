@@ -14,7 +14,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const Limits limits{.max_side_px = 4096, .max_bytes = 1 << 24};
   const auto pages = io::count_pages(bytes, "fuzz", limits);
   constexpr std::size_t kMostPages = 10;
-  io::Frame frame;
+  io::SourceFrame frame;
   for (std::size_t page = 0; page < std::min(pages.value_or(1), kMostPages); ++page) {
     if (!io::decode_picture(bytes, "fuzz", limits, page, frame)) {
       break;

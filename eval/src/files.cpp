@@ -108,7 +108,7 @@ Result<CurveFrame> JsonLines::frame(std::size_t index) const {
 
 Result<Image<std::uint8_t>> read_edge_map(const std::string& path, const Limits& limits) {
   return io::read_picture(path, limits)
-      .and_then([&](const io::Frame& frame) -> Result<Image<std::uint8_t>> {
+      .and_then([&](const io::SourceFrame& frame) -> Result<Image<std::uint8_t>> {
         if (frame.bits != 8) {
           return failure(ErrorCode::kUnsupported,
                          path + ": 16 bits a pixel; edge maps have 8 (255: strongest, 0: none)");

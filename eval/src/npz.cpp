@@ -96,7 +96,7 @@ Result<std::vector<Image<std::uint8_t>>> read_maps(const Archive& archive, const
   if (!pages) {
     return tl::unexpected(pages.error());
   }
-  io::Frame frame;
+  io::SourceFrame frame;
   for (std::size_t page = 0; page < *pages; ++page) {
     if (Status status = io::decode_picture(**bytes, label, limits, page, frame); !status) {
       return tl::unexpected(status.error());

@@ -99,15 +99,16 @@ struct ComparisonSheet::Impl {
 
   Result<ComparedMap> run_classical(const ClassicalName& method, ImageView<const float> levels,
                                     double sigma_levels);
-  Result<ComparedMap> run_ours(ImageView<const std::uint16_t> frame, int bits);
+  Result<ComparedMap> run_thermedge(ImageView<const std::uint16_t> frame, int bits);
   Result<Comparison> draw(ImageView<const std::uint16_t> frame, int bits,
                           const std::string& source);
-  [[nodiscard]] Figure sheet(const Detection& detection, std::span<const ComparedMap> maps,
-                             const std::string& source) const;
+  [[nodiscard]] Figure sheet(ImageView<const std::uint16_t> frame,
+                             std::span<const ComparedMap> maps, const std::string& source) const;
 
   ComparisonOptions options;
   std::unique_ptr<ParallelRunner> runner;
   Detector detector;
+  Detection detection;
   Denoiser denoiser;
   ClassicalDetector classical;
 };
@@ -132,15 +133,15 @@ Result<ComparedMap> ComparisonSheet::Impl::run_classical(const ClassicalName& me
       });
 }
 
-Result<ComparedMap> ComparisonSheet::Impl::run_ours(ImageView<const std::uint16_t> frame,
-                                                    int bits) {
+Result<ComparedMap> ComparisonSheet::Impl::run_thermedge(ImageView<const std::uint16_t> frame,
+                                                         int bits) {
   ComparedMap map;
   map.name = "thermedge";
-  map.display = fmt::format("thermedge ({})", preset_name(options.detector.preset));
+  map.display = fmt::format("thermedge ({})", preset_name(options.detector.preset()));
   map.edges.resize(frame.width(), frame.height());
   return timed([&] {
-           return detector.detect(frame, bits).map([&](const Detection* found) {
-             draw_mask(found->edges, map.edges);
+           return detector.detect({frame, bits}, detection).map([&] {
+             draw_mask(detection.edges, map.edges);
            });
          })
       .map([&](double ms) {
@@ -152,14 +153,16 @@ Result<ComparedMap> ComparisonSheet::Impl::run_ours(ImageView<const std::uint16_
 
 Result<Comparison> ComparisonSheet::Impl::draw(ImageView<const std::uint16_t> frame, int bits,
                                                const std::string& source) {
-  const auto detection = detector.detect(frame, bits);
-  if (!detection) {
-    return tl::unexpected(detection.error());
+  Intermediates steps;
+  if (Status status = detector.detect({frame, bits}, detection, {&steps, {}}); !status) {
+    return tl::unexpected(status.error());
   }
   Image<float> levels(frame.width(), frame.height());
-  copy_pixels((*detection)->levels, levels.view());
-  const double gain = bits == 8 ? 1 : options.detector.scale.gain;
-  const double sigma_levels = (*detection)->sigma_counts * gain;
+  copy_pixels(steps.levels.view(), levels.view());
+  const PaperOptions* paper = options.detector.paper();
+  const double gain =
+      bits == 8 ? 1 : (paper != nullptr ? paper->grey_scale : GreyScaleOptions{}).gain;
+  const double sigma_levels = detection.sigma_counts * gain;
 
   std::vector<ComparedMap> maps;
   for (const ClassicalName& method : kClassicalMethods) {
@@ -169,25 +172,26 @@ Result<Comparison> ComparisonSheet::Impl::draw(ImageView<const std::uint16_t> fr
     }
     maps.push_back(std::move(*map));
   }
-  auto ours = run_ours(frame, bits);
-  if (!ours) {
-    return tl::unexpected(ours.error());
+  auto thermedge_map = run_thermedge(frame, bits);
+  if (!thermedge_map) {
+    return tl::unexpected(thermedge_map.error());
   }
-  maps.push_back(std::move(*ours));
-  Figure drawn = sheet(**detection, maps, source);
+  maps.push_back(std::move(*thermedge_map));
+  Figure drawn = sheet(frame, maps, source);
   return Comparison{std::move(drawn), std::move(maps)};
 }
 
 // The frame and the numbers to the left of the six maps.
-Figure ComparisonSheet::Impl::sheet(const Detection& detection, std::span<const ComparedMap> maps,
+Figure ComparisonSheet::Impl::sheet(ImageView<const std::uint16_t> frame,
+                                    std::span<const ComparedMap> maps,
                                     const std::string& source) const {
   const double aspect = static_cast<double>(detection.height) / detection.width;
   std::vector<Panel> panels = {
       {.title = "Frame",
        .note = fmt::format("{} x {} pixels, noise sigma {:.1f} counts", detection.width,
-                           detection.height, detection.noise.sigma_counts),
+                           detection.height, detection.corrections.noise.sigma_counts),
        .aspect = aspect,
-       .draw = frame_picture(detection.corrected)}};
+       .draw = frame_picture(frame)}};
   for (std::size_t i = 0; i < maps.size(); ++i) {
     if (i == 3) {
       panels.push_back(table_panel(maps, aspect));
@@ -200,7 +204,7 @@ Figure ComparisonSheet::Impl::sheet(const Detection& detection, std::span<const 
       .subtitle =
           fmt::format("{}; the classical detectors run on its 8-bit view{}", source,
                       plain ? std::string(", not denoised")
-                            : fmt::format(" behind {}", display_name(options.classical_denoiser))),
+                            : fmt::format(" after {}", display_name(options.classical_denoiser))),
       .footer =
           "After figures 14 and 15 of Vu Hoang Minh et al. 2017. The classical detectors are "
           "those of MATLAB's edge with its automatic thresholds."};

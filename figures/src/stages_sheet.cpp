@@ -53,8 +53,18 @@ double share_of_level(ImageView<const std::uint8_t> levels, std::uint8_t level) 
 class StagePanels {
  public:
   StagePanels(const DetectorOptions& options, const Detection& detection,
-              std::span<const Denoised> denoised, ImageView<const std::uint8_t> mask, int bits)
-      : options_(options), found_(detection), denoised_(denoised), mask_(mask), bits_(bits) {}
+              const Intermediates& steps, std::span<const Denoised> denoised,
+              ImageView<const std::uint8_t> mask, int bits)
+      : options_(options),
+        found_(detection),
+        steps_(steps),
+        denoised_(denoised),
+        mask_(mask),
+        bits_(bits) {
+    if (const PaperOptions* paper = options.paper()) {
+      gain_ = paper->grey_scale.gain;
+    }
+  }
 
   [[nodiscard]] std::vector<Panel> all() const {
     std::vector<Panel> panels = {frame(), levels()};
@@ -80,7 +90,7 @@ class StagePanels {
   [[nodiscard]] Panel drawn_over(std::string title, std::string note,
                                  std::function<void(Canvas&)> lines) const {
     return panel(std::move(title), std::move(note),
-                 [ground = dimmed_frame(found_.corrected), lines = std::move(lines),
+                 [ground = dimmed_frame(steps_.corrected.view()), lines = std::move(lines),
                   width = found_.width, height = found_.height](Canvas& canvas, const Box& box) {
                    ground(canvas, box);
                    canvas.inside_frame(box, width, height, [&] { lines(canvas); });
@@ -88,43 +98,44 @@ class StagePanels {
   }
 
   [[nodiscard]] Panel frame() const {
-    const CountRange range = count_range(found_.corrected);
+    const CountRange range = count_range(steps_.corrected.view());
     std::string note = fmt::format(
         "{} to {} counts, noise sigma {:.1f} counts; shown from the "
         "0.5th to the 99.5th percentile.",
-        range.min, range.max, found_.noise.sigma_counts);
-    if (!found_.bad_pixels.empty()) {
-      note += fmt::format(" {} replaced.", plural(found_.bad_pixels.size(), "dead pixel"));
+        range.min, range.max, found_.corrections.noise.sigma_counts);
+    if (!found_.corrections.bad_pixels.empty()) {
+      note +=
+          fmt::format(" {} replaced.", plural(found_.corrections.bad_pixels.size(), "bad pixel"));
     }
-    return panel("Frame", std::move(note), frame_picture(found_.corrected));
+    return panel("Frame", std::move(note), frame_picture(steps_.corrected.view()));
   }
 
   [[nodiscard]] Panel levels() const {
     std::string note =
-        bits_ == 8
-            ? std::string("The input has 8 bits: taken as it is.")
-            : fmt::format(
-                  "{} levels a count around the median {}; clipped: {:.1f} % black, {:.1f} "
-                  "% white.",
-                  options_.scale.gain, median_counts(found_.corrected),
-                  100 * share_of_level(found_.levels, 0), 100 * share_of_level(found_.levels, 255));
-    return panel("8-bit view (Algorithm 1)", std::move(note), levels_picture(found_.levels));
+        bits_ == 8 ? std::string("The input has 8 bits: taken as it is.")
+                   : fmt::format(
+                         "{} levels a count around the median {}; clipped: {:.1f} % black, {:.1f} "
+                         "% white.",
+                         gain_, median_counts(steps_.corrected.view()),
+                         100 * share_of_level(steps_.levels.view(), 0),
+                         100 * share_of_level(steps_.levels.view(), 255));
+    return panel("8-bit view (Algorithm 1)", std::move(note), levels_picture(steps_.levels.view()));
   }
 
   [[nodiscard]] Panel denoised(const Denoised& picture) const {
-    const double levels_per_count = bits_ == 8 ? 1 : options_.scale.gain;
+    const double levels_per_count = bits_ == 8 ? 1 : gain_;
     const bool used = picture.method == options_.denoise.method;
     std::string note =
         fmt::format("took out {:.1f} counts (rms) in {:.1f} ms{}",
-                    rms_difference(picture.levels.view(), found_.levels) / levels_per_count,
+                    rms_difference(picture.levels.view(), steps_.levels.view()) / levels_per_count,
                     picture.ms, used ? "; the steps below go on from this one." : ".");
     return panel(fmt::format("Denoised: {}", display_name(picture.method)), std::move(note),
                  levels_picture(picture.levels.view()));
   }
 
   [[nodiscard]] Panel edge_pixels() const {
-    const double share = 1 - share_of_level(found_.edge_map, 0);
-    const bool oriented = options_.edges == EdgeMethod::kOriented;
+    const double share = 1 - share_of_level(steps_.edge_map.view(), 0);
+    const bool oriented = options_.robust() != nullptr;
     const std::string thresholds =
         oriented
             ? fmt::format(
@@ -134,14 +145,14 @@ class StagePanels {
             : fmt::format("Sobel magnitude above {:.1f}, connected down to {:.1f} levels",
                           found_.threshold_high, found_.threshold_low);
     return panel(
-        oriented ? "Edge pixels (oriented kernels)" : "Edge pixels (Canny)",
+        oriented ? "Edge pixels (oriented filter)" : "Edge pixels (Canny)",
         fmt::format("{:.0f} pixels, {:.1f} % of the frame; {}.",
-                    share * static_cast<double>(found_.edge_map.size()), 100 * share, thresholds),
-        map_picture(found_.edge_map));
+                    share * static_cast<double>(steps_.edge_map.size()), 100 * share, thresholds),
+        map_picture(steps_.edge_map.view()));
   }
 
   [[nodiscard]] Panel contours() const {
-    const ContourSet& set = *found_.contours;
+    const ContourSet& set = steps_.contours;
     const auto closed = std::count_if(set.items.begin(), set.items.end(),
                                       [](const Contour& contour) { return contour.closed; });
     return drawn_over("Contours",
@@ -151,18 +162,18 @@ class StagePanels {
   }
 
   [[nodiscard]] Panel links() const {
-    const LinkedContours& linked = *found_.linked;
-    const bool from_graph = options_.edges == EdgeMethod::kOriented;
-    Panel made =
-        drawn_over("Links",
-                   from_graph ? std::string("ends of contours that meet the middle of another one.")
-                              : fmt::format("gaps under {} px: {} contours became {}.",
-                                            options_.linking.gap_px, found_.contours->items.size(),
-                                            linked.contours.items.size()),
-                   [&linked](Canvas& canvas) {
-                     draw_contours(canvas, linked.contours, {150, 154, 160});
-                     draw_links(canvas, linked.links);
-                   });
+    const LinkedContours& linked = steps_.linked;
+    const bool from_graph = options_.robust() != nullptr;
+    Panel made = drawn_over(
+        "Links",
+        from_graph ? std::string("ends of contours that meet the middle of another one.")
+                   : fmt::format("gaps under {} px: {} contours became {}.",
+                                 options_.paper()->linking.gap_px, steps_.contours.items.size(),
+                                 linked.contours.items.size()),
+        [&linked](Canvas& canvas) {
+          draw_contours(canvas, linked.contours, {150, 154, 160});
+          draw_links(canvas, linked.links);
+        });
     made.legend.assign(link_marks().begin(), link_marks().end());
     for (std::size_t i = 0; i < made.legend.size(); ++i) {
       const auto count = std::count_if(
@@ -186,7 +197,7 @@ class StagePanels {
   }
 
   [[nodiscard]] Panel scores() const {
-    return options_.edges == EdgeMethod::kOriented ? statuses() : edge_scores();
+    return options_.robust() != nullptr ? statuses() : edge_scores();
   }
 
   // Why edges were kept or dropped.
@@ -204,7 +215,7 @@ class StagePanels {
         Kind{EdgeStatus::kKept, category_colour(1), "kept"}};
     const auto& selection = options_.selection;
     Panel made = drawn_over(
-        "Verdicts",
+        "Status of each edge",
         fmt::format(
             "score (log of suppressed_response, and of length) from {:.2f}; on the raw frame, at "
             "most {:g} such edges expected of noise alone.",
@@ -281,11 +292,10 @@ class StagePanels {
 
   [[nodiscard]] Panel times() const {
     std::vector<TableRow> rows = {{{"step", "ms"}, false}};
-    for (const Stage& stage : kStages) {
-      rows.push_back(
-          {{std::string(stage.name), fmt::format("{:.2f}", found_.ms.*stage.ms)}, false});
+    for (const StageTime& time : found_.times) {
+      rows.push_back({{std::string(time.stage), fmt::format("{:.2f}", time.ms)}, false});
     }
-    rows.push_back({{"whole frame", fmt::format("{:.2f}", found_.ms.total())}, true});
+    rows.push_back({{"whole frame", fmt::format("{:.2f}", total_ms(found_.times))}, true});
     Panel made =
         panel("Time of each step", "one run on this machine; thermedge bench gives medians.",
               [rows = std::move(rows)](Canvas& canvas, const Box& box) {
@@ -297,15 +307,17 @@ class StagePanels {
 
   const DetectorOptions& options_;
   const Detection& found_;
+  const Intermediates& steps_;
   std::span<const Denoised> denoised_;
   ImageView<const std::uint8_t> mask_;
   int bits_;
+  double gain_ = GreyScaleOptions{}.gain;  // of the 8-bit view
 };
 
 constexpr std::string_view kStepNames[] = {"frame",   "levels", "edge_pixels", "contours", "links",
                                            "corners", "score",  "rank",        "mask",     "times"};
 
-// "03_denoised_nlm" ...: two steps come before the denoisers, the others behind.
+// "03_denoised_nlm" ...: two steps come before the denoisers, the others after them.
 std::vector<std::string> step_names(std::span<const Denoised> denoised) {
   std::vector<std::string> names(std::begin(kStepNames), std::end(kStepNames));
   std::vector<std::string> methods;
@@ -330,6 +342,8 @@ struct StagesSheet::Impl {
   double wanted_width = kPanelWidth;
   std::vector<std::pair<DenoiseMethod, Detector>> detectors;  // the chosen one last
   std::vector<Denoised> denoised;
+  Detection detection;
+  Intermediates steps;
   Image<std::uint8_t> mask;
 
   Result<StagesFigures> draw(ImageView<const std::uint16_t> frame, int bits,
@@ -338,35 +352,33 @@ struct StagesSheet::Impl {
 
 Result<StagesFigures> StagesSheet::Impl::draw(ImageView<const std::uint16_t> frame, int bits,
                                               const std::string& source) {
-  const Detection* detection = nullptr;
   denoised.clear();
   for (auto& [method, detector] : detectors) {
     // The first run on a frame's size allocates; the second shows the usual times.
-    const auto found = detector.detect(frame, bits).and_then([&, &again = detector](auto) {
-      return again.detect(frame, bits);
+    Status status = detector.detect({frame, bits}, detection).and_then([&, &again = detector] {
+      return again.detect({frame, bits}, detection, {&steps, {}});
     });
-    if (!found) {
-      return tl::unexpected(found.error());
+    if (!status) {
+      return tl::unexpected(status.error());
     }
-    detection = *found;
-    Denoised made{method, {}, detection->ms.denoise};
-    made.levels.resize(frame.width(), frame.height());
-    copy_pixels(detection->denoised, made.levels.view());
-    denoised.push_back(std::move(made));
+    const auto denoise =
+        std::find_if(detection.times.begin(), detection.times.end(),
+                     [](const StageTime& time) { return time.stage == "denoise"; });
+    denoised.push_back({method, steps.denoised.clone(), denoise->ms});
   }
   // On the sheet NL-means comes before BM3D, whichever was chosen.
   std::sort(denoised.begin(), denoised.end(),
             [](const Denoised& a, const Denoised& b) { return a.method < b.method; });
   mask.resize(frame.width(), frame.height());
-  draw_mask(detection->edges, mask);
+  draw_mask(detection.edges, mask);
 
   const std::vector<Panel> panels =
-      StagePanels(options, *detection, denoised, mask.view(), bits).all();
+      StagePanels(options, detection, steps, denoised, mask.view(), bits).all();
   const double panel_width = panel_width_for(frame.width(), wanted_width);
   const SheetText text = {
       .title = "From the frame to its edges, step by step",
       .subtitle = fmt::format("{}, {} x {} pixels, preset {}", source, frame.width(),
-                              frame.height(), preset_name(options.preset)),
+                              frame.height(), preset_name(options.preset())),
       .footer =
           "Steps after Vu Hoang Minh et al. 2017, sections 2.3 to 4.2. Colours keep their "
           "order in grey."};

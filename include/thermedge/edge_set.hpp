@@ -26,6 +26,51 @@ struct Edgels {
   void reserve(std::size_t count);
 };
 
+struct Point {
+  float x = 0, y = 0;  // px
+};
+
+// The points of one edge in walking order; a view of the arrays above.
+class EdgePoints {
+ public:
+  EdgePoints(const Edgels& edgels, Range range)
+      : x_(edgels.x.data() + range.first), y_(edgels.y.data() + range.first), size_(range.count) {}
+
+  class Iterator {
+   public:
+    using value_type = Point;
+    using difference_type = std::ptrdiff_t;
+    Iterator() = default;
+    Iterator(const float* x, const float* y) : x_(x), y_(y) {}
+    Point operator*() const { return {*x_, *y_}; }
+    Iterator& operator++() {
+      ++x_;
+      ++y_;
+      return *this;
+    }
+    Iterator operator++(int) {
+      const Iterator before = *this;
+      ++*this;
+      return before;
+    }
+    friend bool operator==(const Iterator& a, const Iterator& b) { return a.x_ == b.x_; }
+
+   private:
+    const float* x_ = nullptr;
+    const float* y_ = nullptr;
+  };
+
+  [[nodiscard]] std::size_t size() const { return size_; }
+  [[nodiscard]] Point operator[](std::size_t i) const { return {x_[i], y_[i]}; }
+  [[nodiscard]] Iterator begin() const { return {x_, y_}; }
+  [[nodiscard]] Iterator end() const { return {x_ + size_, y_ + size_}; }
+
+ private:
+  const float* x_;
+  const float* y_;
+  std::size_t size_;
+};
+
 struct BoundingBox {
   float x_min = 0, y_min = 0, x_max = 0, y_max = 0;  // px, of the edgel positions
 };
@@ -41,12 +86,11 @@ enum class EdgeStatus {
 struct Edge {
   std::int32_t index = 0;  // in EdgeSet::edges; the same as the rank
   std::int32_t rank = 0;   // 0 = best
-  double score =
-      0;  // what edges are ranked by: ES, smaller is better; or, of edge pixels
-          // by oriented kernels, log(mean suppressed_response) + .25 log N, larger is better
+  double score = 0;        // what edges are ranked by, larger is better: preset paper -ES; others
+                           // log(mean suppressed response) + .25 log N
   double display_strength = 0;  // 0..1, falls with the rank, for pictures. By the score, so that it
                                 // means the same in every frame; where ES ranks, evenly from 1 to 0
-  double es = 0;         // edge score of the paper, eqs. 14-18
+  double es = 0;                // edge score of the paper, eqs. 14-18
   double z = 0;          // contrast across the edge on the frame before denoising, in units of
                          // its standard deviation by noise alone
   double log10_nfa = 0;  // log10 of the expected number of such edges in pure noise
@@ -56,11 +100,9 @@ struct Edge {
   bool kept = false;  // status == kKept
   EdgeStatus status = EdgeStatus::kKept;
   BoundingBox box;
-  Range edgels;             // in EdgeSet::edgels
-  Range corners;            // in EdgeSet::corners
-  Range connections;        // in EdgeSet::connections
-  std::int32_t track = -1;  // identity over time, -1 where no tracker ran
-  std::int32_t age = 0;     // frames since the track began
+  Range edgels;       // in EdgeSet::edgels
+  Range corners;      // in EdgeSet::corners
+  Range connections;  // in EdgeSet::connections
 };
 
 // All edges, those that passed all tests first, each part best first; those within the budgets come
@@ -74,6 +116,7 @@ struct EdgeSet {
   std::size_t kept = 0;                   // edges[0 .. kept) are within the budgets
 
   [[nodiscard]] std::span<const Edge> kept_edges() const { return {edges.data(), kept}; }
+  [[nodiscard]] EdgePoints points_of(const Edge& edge) const { return {edgels, edge.edgels}; }
   [[nodiscard]] std::span<const std::uint32_t> corners_of(const Edge& edge) const {
     return slice(corners, edge.corners);
   }

@@ -14,20 +14,23 @@ enum class ErrorCode {
   kUnsupported,      // well-formed, but of a kind this library does not read
   kLimitExceeded,    // larger than Limits allow
   kOutOfMemory,
+  kCancelled,  // the caller asked for it
 };
 
 // `message` is one line that names the file or option, what is wrong, and what would be right.
 struct Error {
   ErrorCode code = ErrorCode::kInvalidArgument;
   std::string message;
+  std::string option;  // full name of the option that is at fault, where one is
 };
 
 template <class T>
 using Result = tl::expected<T, Error>;
 using Status = tl::expected<void, Error>;
 
-[[nodiscard]] inline tl::unexpected<Error> failure(ErrorCode code, std::string message) {
-  return tl::unexpected<Error>(Error{code, std::move(message)});
+[[nodiscard]] inline tl::unexpected<Error> failure(ErrorCode code, std::string message,
+                                                   std::string option = {}) {
+  return tl::unexpected<Error>(Error{code, std::move(message), std::move(option)});
 }
 
 }  // namespace thermedge

@@ -7,7 +7,6 @@
 
 #include "arm_tangent.hpp"
 #include "curvature.hpp"
-#include "thermedge/options.hpp"
 
 namespace thermedge {
 namespace {
@@ -92,6 +91,8 @@ std::size_t samples_within(Iterator from, Iterator end, double distance_px) {
 
 }  // namespace
 
+Status CornerOptions::check() const { return check_ranges(*this, "corners."); }
+
 void CornerSet::clear() {
   indices.clear();
   ranges.clear();
@@ -99,7 +100,7 @@ void CornerSet::clear() {
 
 Status CornerFinder::run(const ContourSet& contours, CornerSet& corners) {
   corners.clear();
-  if (Status status = check_ranges(options_, "corners."); !status) {
+  if (Status status = options_.check(); !status) {
     return status;
   }
   prepare(contours, corners);

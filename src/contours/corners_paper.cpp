@@ -6,7 +6,6 @@
 
 #include "corner_angle.hpp"
 #include "curvature.hpp"
-#include "thermedge/options.hpp"
 
 namespace thermedge {
 namespace {
@@ -48,10 +47,12 @@ double mean(std::span<const double> values) {
 
 }  // namespace
 
+Status PaperCornerOptions::check() const { return check_ranges(*this, "corners."); }
+
 // Algorithm 4.
 Status PaperCornerFinder::run(const ContourSet& contours, CornerSet& corners) {
   corners.clear();
-  if (Status status = check_ranges(options_, "paper_corners."); !status) {
+  if (Status status = options_.check(); !status) {
     return status;
   }
   prepare(contours, corners);

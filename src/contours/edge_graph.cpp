@@ -9,8 +9,6 @@
 #include <numbers>
 #include <tuple>
 
-#include "thermedge/options.hpp"
-
 namespace thermedge {
 namespace {
 
@@ -80,10 +78,12 @@ unsigned connected_around(unsigned around) {
 
 }  // namespace
 
+Status GraphOptions::check() const { return check_ranges(*this, "graph."); }
+
 Status GraphTracer::run(ImageView<const std::uint8_t> edges, ImageView<const float> response,
                         LinkedContours& curves) {
   curves.clear();
-  if (Status status = check_ranges(options_, "graph."); !status) {
+  if (Status status = options_.check(); !status) {
     return status;
   }
   if (!same_size(edges, response)) {

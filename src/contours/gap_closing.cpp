@@ -9,7 +9,6 @@
 #include <tuple>
 
 #include "pixel_window.hpp"
-#include "thermedge/options.hpp"
 
 namespace thermedge {
 namespace {
@@ -49,10 +48,12 @@ double step_across(ImageView<const float> frame, double at_x, double at_y, doubl
 
 }  // namespace
 
+Status GapClosingOptions::check() const { return check_ranges(*this, "gap_closing."); }
+
 Status GapCloser::run(const LinkedContours& curves, ImageView<const float> frame,
                       std::span<const std::uint8_t> eligible, LinkedContours& bridged) {
   bridged.clear();
-  if (Status status = check_ranges(options_, "gap_closing."); !status) {
+  if (Status status = options_.check(); !status) {
     return status;
   }
   assert(eligible.size() == curves.contours.items.size());

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "pixel_window.hpp"
-#include "thermedge/options.hpp"
 #include "thermedge/stages/contour_chains.hpp"
 
 namespace thermedge {
@@ -20,6 +19,8 @@ int reach_of(double gap_px) { return static_cast<int>(std::ceil(gap_px)); }
 
 }  // namespace
 
+Status LinkingOptions::check() const { return check_ranges(*this, "linking."); }
+
 void LinkedContours::clear() {
   contours.clear();
   links.clear();
@@ -28,7 +29,7 @@ void LinkedContours::clear() {
 // Algorithm 5.
 Status Linker::run(const ContourSet& contours, int width, int height, LinkedContours& linked) {
   linked.clear();
-  if (Status status = check_ranges(options_, "linking."); !status) {
+  if (Status status = options_.check(); !status) {
     return status;
   }
   prepare(contours, width, height, linked);

@@ -5,7 +5,6 @@
 #include <string>
 
 #include "pixel_window.hpp"
-#include "thermedge/options.hpp"
 
 namespace thermedge {
 namespace {
@@ -31,6 +30,8 @@ bool ends_meet(Pixel first, Pixel last, double gap_px) {
 
 }  // namespace
 
+Status ContourOptions::check() const { return check_ranges(*this, "contours."); }
+
 void ContourSet::clear() {
   points.clear();
   items.clear();
@@ -39,7 +40,7 @@ void ContourSet::clear() {
 
 Status ContourTracer::run(ImageView<const std::uint8_t> edges, ContourSet& contours) {
   contours.clear();
-  if (Status status = check_ranges(options_, "contours."); !status) {
+  if (Status status = options_.check(); !status) {
     return status;
   }
   if (edges.size() > std::numeric_limits<std::int32_t>::max()) {

@@ -9,6 +9,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "edgel_runs_simd.cpp"
 #include "simd_config.hpp"
+#include "simd_dispatch.hpp"
 
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
@@ -152,15 +153,15 @@ HWY_EXPORT(backward_sums);
 
 void differences_across(ImageView<const std::uint16_t> frame, const EdgelRun& edgels,
                         double distance_px, double* out) {
-  HWY_DYNAMIC_DISPATCH(differences_across)(frame, edgels, distance_px, out);
+  THERMEDGE_SIMD_DISPATCH(differences_across)(frame, edgels, distance_px, out);
 }
 
 void tangents(const float* coordinate, int count, double* out) {
-  HWY_DYNAMIC_DISPATCH(tangents)(coordinate, count, out);
+  THERMEDGE_SIMD_DISPATCH(tangents)(coordinate, count, out);
 }
 
 void backward_sums(const double* values, const double* weights, int taps, int count, double* out) {
-  HWY_DYNAMIC_DISPATCH(backward_sums)(values, weights, taps, count, out);
+  THERMEDGE_SIMD_DISPATCH(backward_sums)(values, weights, taps, count, out);
 }
 
 }  // namespace thermedge::detail

@@ -7,6 +7,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "extent_simd.cpp"
 #include "simd_config.hpp"
+#include "simd_dispatch.hpp"
 
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
@@ -55,7 +56,7 @@ namespace thermedge::detail {
 HWY_EXPORT(extent_of);
 
 Extent extent_of(const float* row, int width) {
-  return HWY_DYNAMIC_DISPATCH(extent_of)(row, width);
+  return THERMEDGE_SIMD_DISPATCH(extent_of)(row, width);
 }
 
 }  // namespace thermedge::detail

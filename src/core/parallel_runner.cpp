@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <atomic>
 
+#include "thermedge/simd.hpp"
+
 namespace thermedge {
 namespace {
 
@@ -65,11 +67,13 @@ class TbbRunner final : public ParallelRunner {
   explicit TbbRunner(int threads) : arena_(threads) {}
   void run(int count, FunctionRef task) override {
     [[maybe_unused]] Handover handover;
+    const SimdTarget simd = SimdScope::current();
     arena_.execute([&] {
       oneapi::tbb::parallel_for(
           0, count, 1,
           [&](int index) {
             handover.begin_task();
+            const SimdScope scope(simd);
             task(index);
             handover.end_task();
           },

@@ -5,6 +5,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "smoothing_simd.cpp"
 #include "simd_config.hpp"
+#include "simd_dispatch.hpp"
 
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
@@ -85,12 +86,12 @@ HWY_EXPORT(smooth_row);
 
 void paper_kernel_row(const float* centre, std::ptrdiff_t stride, int width, float* wide,
                       float* narrow, float* out) {
-  HWY_DYNAMIC_DISPATCH(paper_kernel_row)(centre, stride, width, wide, narrow, out);
+  THERMEDGE_SIMD_DISPATCH(paper_kernel_row)(centre, stride, width, wide, narrow, out);
 }
 
 void smooth_row(const float* centre, std::ptrdiff_t step, const float* weights, int radius,
                 int width, float* out) {
-  HWY_DYNAMIC_DISPATCH(smooth_row)(centre, step, weights, radius, width, out);
+  THERMEDGE_SIMD_DISPATCH(smooth_row)(centre, step, weights, radius, width, out);
 }
 
 }  // namespace thermedge::detail

@@ -3,6 +3,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "bilateral_simd.cpp"
 #include "simd_config.hpp"
+#include "simd_dispatch.hpp"
 
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
@@ -52,7 +53,7 @@ HWY_EXPORT(bilateral_row);
 
 void bilateral_row(const float* centre, std::ptrdiff_t step, const float* weights, int radius,
                    float cut, int width, float* out) {
-  HWY_DYNAMIC_DISPATCH(bilateral_row)(centre, step, weights, radius, cut, width, out);
+  THERMEDGE_SIMD_DISPATCH(bilateral_row)(centre, step, weights, radius, cut, width, out);
 }
 
 }  // namespace thermedge::detail

@@ -40,7 +40,6 @@ Bm3dSettings bm3d_settings(const Bm3dOptions& options) {
     case Bm3dProfile::kQuality:
       settings.step_px = 2;
       settings.search_radius_px = 20;
-      settings.with_adjacent = true;
       break;
     case Bm3dProfile::kBalanced:
       settings.wiener.staggered = true;
@@ -54,7 +53,7 @@ Bm3dSettings bm3d_settings(const Bm3dOptions& options) {
 }
 
 Bm3d::Bm3d(const Bm3dSettings& settings)
-    : settings_(settings), pattern_(settings.search_radius_px, settings.with_adjacent) {
+    : settings_(settings), pattern_(settings.search_radius_px, settings.options.adjacent_blocks) {
   const double beta = settings.options.kaiser_beta;
   const double beta_squared = beta * beta;
   for (int i = 0; i < kBlockPx; ++i) {

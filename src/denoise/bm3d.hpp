@@ -22,9 +22,6 @@ struct Bm3dSettings {
   Bm3dOptions options;
   int step_px = 4;            // distance of reference blocks: 1, 2, 4 or 8
   int search_radius_px = 16;  // largest displacement of matched blocks, 4..kLargestSearchRadius
-  // Whether a block displaced by a pixel may join a group: more detail is kept, and more bilateral,
-  // which looks like edges.
-  bool with_adjacent = false;
   StageSettings hard;
   StageSettings wiener;
 };

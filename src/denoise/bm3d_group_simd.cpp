@@ -5,6 +5,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "bm3d_group_simd.cpp"
 #include "simd_config.hpp"
+#include "simd_dispatch.hpp"
 
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
@@ -258,17 +259,17 @@ HWY_EXPORT(transform_block);
 
 void filter_hard(ImageView<const float> noisy, std::span<const BlockPosition> group, float lambda,
                  const BlockWindow& window, const Accumulator& accumulator) {
-  HWY_DYNAMIC_DISPATCH(filter_hard)(noisy, group, lambda, window, accumulator);
+  THERMEDGE_SIMD_DISPATCH(filter_hard)(noisy, group, lambda, window, accumulator);
 }
 
 void filter_wiener(ImageView<const float> noisy, ImageView<const float> basic,
                    std::span<const BlockPosition> group, const BlockWindow& window,
                    const Accumulator& accumulator) {
-  HWY_DYNAMIC_DISPATCH(filter_wiener)(noisy, basic, group, window, accumulator);
+  THERMEDGE_SIMD_DISPATCH(filter_wiener)(noisy, basic, group, window, accumulator);
 }
 
 void transform_block(BlockTransform transform, bool inverse, float* block) {
-  HWY_DYNAMIC_DISPATCH(transform_block)(transform, inverse, block);
+  THERMEDGE_SIMD_DISPATCH(transform_block)(transform, inverse, block);
 }
 
 }  // namespace thermedge::detail

@@ -10,6 +10,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "bm3d_match_simd.cpp"
 #include "simd_config.hpp"
+#include "simd_dispatch.hpp"
 
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
@@ -478,7 +479,7 @@ void MatchGuide::resize(int width, int height, int radius_px) {
 }
 
 void MatchGuide::set_row(const float* values, int y) {
-  HWY_DYNAMIC_DISPATCH(quantise_row)
+  THERMEDGE_SIMD_DISPATCH(quantise_row)
   (values, width_ / kCellPx, phases_.row(y * kCellPx) + margin_, phases_.stride());
 }
 
@@ -499,12 +500,12 @@ void match_row(const MatchGuide& guide, const SearchPattern& pattern, const Refe
   scratch.prepare(pattern, search.lanes());
   if (scratch.pairs_cells < search.lanes() || scratch.pairs_x != row.x ||
       scratch.pairs_y + kCellPx != row.y) {
-    HWY_DYNAMIC_DISPATCH(begin_pairs)(search, scratch);
+    THERMEDGE_SIMD_DISPATCH(begin_pairs)(search, scratch);
   }
   scratch.pairs_x = row.x;
   scratch.pairs_y = row.y;
   scratch.pairs_cells = search.lanes();
-  HWY_DYNAMIC_DISPATCH(match_row)(search, largest_group, scratch, groups);
+  THERMEDGE_SIMD_DISPATCH(match_row)(search, largest_group, scratch, groups);
 }
 
 }  // namespace thermedge::detail

@@ -3,6 +3,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "bm3d_sums_simd.cpp"
 #include "simd_config.hpp"
+#include "simd_dispatch.hpp"
 
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
@@ -55,15 +56,15 @@ HWY_EXPORT(spread_row);
 HWY_EXPORT(divide_row);
 
 void add_row(const float* more, int width, float* sums) {
-  HWY_DYNAMIC_DISPATCH(add_row)(more, width, sums);
+  THERMEDGE_SIMD_DISPATCH(add_row)(more, width, sums);
 }
 
 void spread_row(const float* profile, const float* in, std::ptrdiff_t step, int width, float* out) {
-  HWY_DYNAMIC_DISPATCH(spread_row)(profile, in, step, width, out);
+  THERMEDGE_SIMD_DISPATCH(spread_row)(profile, in, step, width, out);
 }
 
 void divide_row(const float* sums, int width, float* values) {
-  HWY_DYNAMIC_DISPATCH(divide_row)(sums, width, values);
+  THERMEDGE_SIMD_DISPATCH(divide_row)(sums, width, values);
 }
 
 }  // namespace thermedge::detail

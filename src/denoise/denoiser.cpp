@@ -11,7 +11,6 @@
 #include "float_frame.hpp"
 #include "gaussian.hpp"
 #include "nlm.hpp"
-#include "thermedge/options.hpp"
 
 namespace thermedge {
 namespace {
@@ -28,20 +27,6 @@ Status check_sigma_px(double sigma_px) {
              : failure(ErrorCode::kInvalidArgument,
                        "denoise.gaussian.sigma_px = " + std::to_string(sigma_px) +
                            ": must be 0 (the 5x5 kernel) or 0.3 to 20");
-}
-
-Status check_denoise_options(const DenoiseOptions& options) {
-  if (Status status = check_ranges(options, "denoise."); !status) {
-    return status;
-  }
-  for (const Status& status : {check_sigma_px(options.gaussian.sigma_px),
-                               check_odd(options.nlm.patch_px, "denoise.nlm.patch_px"),
-                               check_odd(options.nlm.search_px, "denoise.nlm.search_px")}) {
-    if (!status) {
-      return status;
-    }
-  }
-  return {};
 }
 
 Status check_input(ImageView<const float> in, ImageView<float> out) {
@@ -72,6 +57,20 @@ Status check_side(ImageView<const float> in) {
 
 }  // namespace
 
+Status DenoiseOptions::check() const {
+  if (Status status = check_ranges(*this, "denoise."); !status) {
+    return status;
+  }
+  for (const Status& status :
+       {check_sigma_px(gaussian.sigma_px), check_odd(nlm.patch_px, "denoise.nlm.patch_px"),
+        check_odd(nlm.search_px, "denoise.nlm.search_px")}) {
+    if (!status) {
+      return status;
+    }
+  }
+  return {};
+}
+
 void round_to_counts(ImageView<const float> in, ImageView<std::uint16_t> out) {
   for (int y = 0; y < in.height(); ++y) {
     std::transform(in.row(y), in.row(y) + in.width(), out.row(y), [](float value) {
@@ -81,8 +80,7 @@ void round_to_counts(ImageView<const float> in, ImageView<std::uint16_t> out) {
 }
 
 struct Denoiser::Impl {
-  explicit Impl(const DenoiseOptions& chosen)
-      : options(chosen), options_status(check_denoise_options(chosen)) {}
+  explicit Impl(const DenoiseOptions& chosen) : options(chosen), options_status(chosen.check()) {}
 
   // `burden`: see run_measured.
   Status run(ImageView<const float> in, double sigma, double burden, ImageView<float> out,

@@ -3,6 +3,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "nlm_simd.cpp"
 #include "simd_config.hpp"
+#include "simd_dispatch.hpp"
 
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
@@ -151,7 +152,7 @@ namespace thermedge::detail {
 HWY_EXPORT(nlm_band);
 
 void nlm_band(const NlmBand& band, int patch_px, int search_px, const NlmWeights& weights) {
-  HWY_DYNAMIC_DISPATCH(nlm_band)(band, patch_px, search_px, weights);
+  THERMEDGE_SIMD_DISPATCH(nlm_band)(band, patch_px, search_px, weights);
 }
 
 }  // namespace thermedge::detail

@@ -6,7 +6,6 @@
 #include "gradient_simd.hpp"
 #include "hysteresis.hpp"
 #include "suppression_simd.hpp"
-#include "thermedge/options.hpp"
 
 namespace thermedge {
 namespace {
@@ -28,11 +27,13 @@ void count_row(const float* magnitude, int width, double bins_per_unit,
 
 }  // namespace
 
+Status CannyOptions::check() const { return check_ranges(*this, "canny."); }
+
 Result<CannyResult> Canny::run(ImageView<const float> in, ParallelRunner& runner) {
   if (in.empty()) {
     return failure(ErrorCode::kInvalidArgument, "frame: it has no pixels");
   }
-  if (Status status = check_ranges(options_, "canny."); !status) {
+  if (Status status = options_.check(); !status) {
     return tl::unexpected(status.error());
   }
   prepare(in.width(), in.height());

@@ -5,6 +5,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "gradient_simd.cpp"
 #include "simd_config.hpp"
+#include "simd_dispatch.hpp"
 
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
@@ -58,7 +59,7 @@ namespace thermedge::detail {
 HWY_EXPORT(sobel_row);
 
 float sobel_row(const BorderedRows& rows, int width, float* gx, float* gy, float* magnitude) {
-  return HWY_DYNAMIC_DISPATCH(sobel_row)(rows, width, gx, gy, magnitude);
+  return THERMEDGE_SIMD_DISPATCH(sobel_row)(rows, width, gx, gy, magnitude);
 }
 
 }  // namespace thermedge::detail

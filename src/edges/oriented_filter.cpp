@@ -14,7 +14,6 @@
 #include "portable_math.hpp"
 #include "smoothing_simd.hpp"
 #include "suppression_simd.hpp"
-#include "thermedge/options.hpp"
 
 namespace thermedge {
 namespace {
@@ -207,8 +206,7 @@ double noise_gain(const Derivative& derivative) {
   return std::sqrt(power);
 }
 
-Status check(ImageView<const float> in, double sigma_counts, double noisiness,
-             const OrientedFilterOptions& options) {
+Status check_input(ImageView<const float> in, double sigma_counts, double noisiness) {
   if (in.empty()) {
     return failure(ErrorCode::kInvalidArgument, "frame: it has no pixels");
   }
@@ -218,20 +216,25 @@ Status check(ImageView<const float> in, double sigma_counts, double noisiness,
   if (!(noisiness >= 0 && noisiness <= 1)) {
     return failure(ErrorCode::kInvalidArgument, "noisiness: it must be 0 to 1");
   }
-  if (options.along_px < options.across_px) {
-    return failure(ErrorCode::kInvalidArgument, "oriented.along_px is less than across_px");
-  }
-  if (options.clean_along_px < options.clean_across_px) {
-    return failure(ErrorCode::kInvalidArgument,
-                   "oriented.clean_along_px is less than clean_across_px");
-  }
-  if (options.high < options.low) {
-    return failure(ErrorCode::kInvalidArgument, "oriented.high is less than low");
-  }
-  return check_ranges(options, "oriented.").and_then([&] { return detail::check_finite(in); });
+  return detail::check_finite(in);
 }
 
 }  // namespace
+
+Status OrientedFilterOptions::check() const {
+  if (along_px < across_px) {
+    return failure(ErrorCode::kInvalidArgument,
+                   "oriented_filter.along_px must be at least across_px");
+  }
+  if (clean_along_px < clean_across_px) {
+    return failure(ErrorCode::kInvalidArgument,
+                   "oriented_filter.clean_along_px must be at least clean_across_px");
+  }
+  if (high < low) {
+    return failure(ErrorCode::kInvalidArgument, "oriented_filter.high must be at least low");
+  }
+  return check_ranges(*this, "oriented_filter.");
+}
 
 // Pictures with a margin: pixel (x, y) of the frame is at (x + margin, y + margin).
 struct OrientedFilterBank::Impl {
@@ -519,7 +522,7 @@ OrientedFilterBank::~OrientedFilterBank() = default;
 Result<OrientedFilterResult> OrientedFilterBank::run(ImageView<const float> in, double sigma_counts,
                                                      double noisiness, ParallelRunner& runner) {
   Impl& self = *impl_;
-  if (Status status = check(in, sigma_counts, noisiness, self.options); !status) {
+  if (Status status = check_input(in, sigma_counts, noisiness); !status) {
     return tl::unexpected(status.error());
   }
   self.kernels = &self.all_kernels[static_cast<std::size_t>(std::lround(noisiness * kKernelSteps))];

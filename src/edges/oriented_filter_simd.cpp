@@ -3,6 +3,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "oriented_filter_simd.cpp"
 #include "simd_config.hpp"
+#include "simd_dispatch.hpp"
 
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
@@ -163,34 +164,34 @@ HWY_EXPORT(suppressed_responses_at);
 
 void odd_filter_row(const float* centre, std::ptrdiff_t step, const float* weights, int radius,
                     int width, float* out) {
-  HWY_DYNAMIC_DISPATCH(odd_filter_row)(centre, step, weights, radius, width, out);
+  THERMEDGE_SIMD_DISPATCH(odd_filter_row)(centre, step, weights, radius, width, out);
 }
 
 void magnitude_row(const float* gx, const float* gy, int width, float* out) {
-  HWY_DYNAMIC_DISPATCH(magnitude_row)(gx, gy, width, out);
+  THERMEDGE_SIMD_DISPATCH(magnitude_row)(gx, gy, width, out);
 }
 
 void project_row(const float* gx, const float* gy, float a, float b, int width, float* out) {
-  HWY_DYNAMIC_DISPATCH(project_row)(gx, gy, a, b, width, out);
+  THERMEDGE_SIMD_DISPATCH(project_row)(gx, gy, a, b, width, out);
 }
 
 void keep_stronger_row(const float* centre, const std::ptrdiff_t* offsets, const float* weights,
                        int radius, int index, int reverse, int width, float* response,
                        std::int32_t* direction) {
-  HWY_DYNAMIC_DISPATCH(keep_stronger_row)
+  THERMEDGE_SIMD_DISPATCH(keep_stronger_row)
   (centre, offsets, weights, radius, index, reverse, width, response, direction);
 }
 
 int find_ridges_row(const float* response, std::ptrdiff_t stride, const std::int32_t* direction,
                     const DiagonalShares& shares, float low, int count, std::int32_t* places) {
-  return HWY_DYNAMIC_DISPATCH(find_ridges_row)(response, stride, direction, shares, low, count,
-                                               places);
+  return THERMEDGE_SIMD_DISPATCH(find_ridges_row)(response, stride, direction, shares, low, count,
+                                                  places);
 }
 
 void suppressed_responses_at(const float* response, const std::int32_t* direction,
                              const std::int32_t* offsets, int sides, const std::int32_t* places,
                              int count, float* out) {
-  HWY_DYNAMIC_DISPATCH(suppressed_responses_at)
+  THERMEDGE_SIMD_DISPATCH(suppressed_responses_at)
   (response, direction, offsets, sides, places, count, out);
 }
 

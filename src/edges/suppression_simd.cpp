@@ -3,6 +3,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "suppression_simd.cpp"
 #include "simd_config.hpp"
+#include "simd_dispatch.hpp"
 
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
@@ -57,7 +58,7 @@ namespace thermedge::detail {
 HWY_EXPORT(suppress_row);
 
 void suppress_row(const GradientRow& row, int count, float low, float high, std::uint8_t* classes) {
-  HWY_DYNAMIC_DISPATCH(suppress_row)(row, count, low, high, classes);
+  THERMEDGE_SIMD_DISPATCH(suppress_row)(row, count, low, high, classes);
 }
 
 }  // namespace thermedge::detail

@@ -104,6 +104,8 @@ bool contains(const std::vector<BadPixel>& dead, int x, int y) {
 
 }  // namespace
 
+Status BadPixelOptions::check() const { return check_ranges(*this, "bad_pixels."); }
+
 void replace_bad_pixels(ImageView<std::uint16_t> frame, double sigma_counts,
                         const BadPixelOptions& options, std::vector<BadPixel>& dead) {
   dead.clear();

@@ -3,6 +3,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "highpass_simd.cpp"
 #include "simd_config.hpp"
+#include "simd_dispatch.hpp"
 
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
@@ -98,11 +99,11 @@ HWY_EXPORT(highpass_row);
 HWY_EXPORT(column_medians);
 
 void highpass_row(const CountRows& rows, int width, std::uint16_t* residual, std::uint16_t* slope) {
-  HWY_DYNAMIC_DISPATCH(highpass_row)(rows, width, residual, slope);
+  THERMEDGE_SIMD_DISPATCH(highpass_row)(rows, width, residual, slope);
 }
 
 void column_medians(ImageView<const std::int32_t> table, float* medians) {
-  HWY_DYNAMIC_DISPATCH(column_medians)(table, medians);
+  THERMEDGE_SIMD_DISPATCH(column_medians)(table, medians);
 }
 
 }  // namespace thermedge::detail

@@ -3,6 +3,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "lag_sums_simd.cpp"
 #include "simd_config.hpp"
+#include "simd_dispatch.hpp"
 
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
@@ -54,7 +55,7 @@ HWY_EXPORT(lag_sums);
 
 void lag_sums(ImageView<const std::uint16_t> counts, ImageView<const std::uint16_t> reach,
               int limit, ImageView<std::int16_t> sums, ImageView<std::int16_t> numbers) {
-  HWY_DYNAMIC_DISPATCH(lag_sums)(counts, reach, limit, sums, numbers);
+  THERMEDGE_SIMD_DISPATCH(lag_sums)(counts, reach, limit, sums, numbers);
 }
 
 }  // namespace thermedge::detail

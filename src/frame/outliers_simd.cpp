@@ -5,6 +5,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "outliers_simd.cpp"
 #include "simd_config.hpp"
+#include "simd_dispatch.hpp"
 
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
@@ -101,7 +102,7 @@ HWY_EXPORT(append_outliers);
 
 void append_outliers(const CountRows& rows, int width, int y, int limit,
                      std::vector<BadPixel>& outliers) {
-  HWY_DYNAMIC_DISPATCH(append_outliers)(rows, width, y, limit, outliers);
+  THERMEDGE_SIMD_DISPATCH(append_outliers)(rows, width, y, limit, outliers);
 }
 
 }  // namespace thermedge::detail

@@ -1,22 +1,161 @@
 #include "thermedge/stages/preprocessor.hpp"
 
-namespace thermedge {
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <span>
 
-ImageView<const std::uint16_t> Preprocessor::run(ImageView<const std::uint16_t> frame,
-                                                 double sigma_counts, ParallelRunner& runner) {
+#include "order_statistics.hpp"
+
+namespace thermedge {
+namespace {
+
+constexpr double kMostCounts = std::numeric_limits<std::uint16_t>::max();
+
+bool is_count(float value) {
+  return value >= 0 && value <= static_cast<float>(kMostCounts) && std::floor(value) == value;
+}
+
+}  // namespace
+
+ImageView<const std::uint16_t> Preprocessor::run(const Frame& frame, ParallelRunner& runner,
+                                                 Corrections& corrections) {
   corrected_.resize(frame.width(), frame.height());
-  copy_pixels(frame, corrected_.view());
-  bad_pixels_.clear();
-  stripes_.columns.clear();
-  stripes_.rows.clear();
-  if (options_.bad_pixels) {
-    replace_bad_pixels(corrected_, sigma_counts, options_, bad_pixels_);
+  note_validity(frame);
+  load(frame, corrections);
+  if (!valid_view_.empty()) {
+    fill_invalid();
   }
-  if (options_.stripes) {
-    finder_.measure(corrected_, sigma_counts, runner, stripes_);
-    remove_stripes(stripes_, corrected_);
+  corrections.noise = noise_estimator_.measure(corrected_);
+  corrections.bad_pixels.clear();
+  corrections.stripes.columns.clear();
+  corrections.stripes.rows.clear();
+  const double sigma_counts = corrections.noise.sigma_counts;
+  if (bad_pixel_options_.replace) {
+    replace_bad_pixels(corrected_, sigma_counts, bad_pixel_options_, corrections.bad_pixels);
+  }
+  if (stripe_options_.remove) {
+    stripe_finder_.measure(corrected_, sigma_counts, runner, corrections.stripes);
+    remove_stripes(corrections.stripes, corrected_);
   }
   return corrected_;
+}
+
+void Preprocessor::load(const Frame& frame, Corrections& corrections) {
+  corrections.counts_per_unit = 1;
+  corrections.offset = 0;
+  if (const auto* levels = std::get_if<ImageView<const std::uint8_t>>(&frame.pixels)) {
+    copy_pixels(*levels, corrected_.view());
+  } else if (const auto* counts = std::get_if<ImageView<const std::uint16_t>>(&frame.pixels)) {
+    copy_pixels(*counts, corrected_.view());
+  } else if (const auto* values = std::get_if<ImageView<const float>>(&frame.pixels)) {
+    load_values(*values, corrections);
+  }
+}
+
+// Pixels that are not finite are filled afterwards.
+void Preprocessor::load_values(ImageView<const float> values, Corrections& corrections) {
+  bool are_counts = true;
+  for (int y = 0; y < values.height() && are_counts; ++y) {
+    are_counts = std::all_of(values.row(y), values.row(y) + values.width(),
+                             [](float value) { return is_count(value) || !std::isfinite(value); });
+  }
+  if (!are_counts) {
+    choose_scale(values, corrections);
+  }
+  for (int y = 0; y < values.height(); ++y) {
+    std::transform(
+        values.row(y), values.row(y) + values.width(), corrected_.row(y), [&](float value) {
+          const double count =
+              (static_cast<double>(value) - corrections.offset) * corrections.counts_per_unit;
+          return std::isfinite(value)
+                     ? static_cast<std::uint16_t>(std::clamp(count, 0.0, kMostCounts) + 0.5)
+                     : std::uint16_t{0};
+        });
+  }
+}
+
+// A power of two, so that no precision is lost and frames of a sequence keep the same scale.
+void Preprocessor::choose_scale(ImageView<const float> values, Corrections& corrections) {
+  constexpr double kTail = 0.001;
+  constexpr double kSpanCounts = 16384;
+  constexpr double kMiddleCounts = 32768;
+  sample_.clear();
+  sample_.reserve(values.size());
+  for (int y = 0; y < values.height(); ++y) {
+    std::copy_if(values.row(y), values.row(y) + values.width(), std::back_inserter(sample_),
+                 [](float value) { return std::isfinite(value); });
+  }
+  if (sample_.empty()) {
+    return;
+  }
+  const auto quantile = [&](double share) {
+    const auto rank = static_cast<std::size_t>(share * static_cast<double>(sample_.size() - 1));
+    return static_cast<double>(detail::nth_value(std::span(sample_), rank));
+  };
+  const double low = quantile(kTail);
+  const double high = quantile(1 - kTail);
+  const double span = high > low ? high - low : 1;
+  corrections.counts_per_unit = std::exp2(std::floor(std::log2(kSpanCounts / span)));
+  corrections.offset = (low + high) / 2 - kMiddleCounts / corrections.counts_per_unit;
+}
+
+void Preprocessor::note_validity(const Frame& frame) {
+  const auto* values = std::get_if<ImageView<const float>>(&frame.pixels);
+  valid_view_ = {};
+  if (values == nullptr && frame.valid.empty()) {
+    return;
+  }
+  valid_.resize(frame.width(), frame.height());
+  bool all_valid = true;
+  for (int y = 0; y < frame.height(); ++y) {
+    for (int x = 0; x < frame.width(); ++x) {
+      const bool valid = (frame.valid.empty() || frame.valid(x, y) != 0) &&
+                         (values == nullptr || std::isfinite((*values)(x, y)));
+      valid_(x, y) = valid ? 1 : 0;
+      all_valid = all_valid && valid;
+    }
+  }
+  if (!all_valid) {
+    valid_view_ = valid_;
+  }
+}
+
+// By the nearest valid pixel of the row, the left one of two as near; a row without any takes the
+// row before it, or, at the top, the first one that has some.
+void Preprocessor::fill_invalid() {
+  int last_filled = -1;
+  for (int y = 0; y < corrected_.height(); ++y) {
+    const std::uint8_t* valid = valid_view_.row(y);
+    std::uint16_t* counts = corrected_.row(y);
+    const int width = corrected_.width();
+    if (std::none_of(valid, valid + width, [](std::uint8_t v) { return v != 0; })) {
+      if (last_filled >= 0) {
+        std::copy_n(corrected_.row(last_filled), width, counts);
+        last_filled = y;
+      }
+      continue;
+    }
+    int left = -1;
+    for (int x = 0; x < width; ++x) {
+      if (valid[x] != 0) {
+        left = x;
+        continue;
+      }
+      const auto* next =
+          std::find_if(valid + x, valid + width, [](std::uint8_t v) { return v != 0; });
+      const int right = static_cast<int>(next - valid);
+      const bool take_left = left >= 0 && (right >= width || x - left <= right - x);
+      counts[x] = counts[take_left ? left : right];
+    }
+    if (last_filled < 0) {
+      for (int above = 0; above < y; ++above) {
+        std::copy_n(counts, width, corrected_.row(above));
+      }
+    }
+    last_filled = y;
+  }
 }
 
 }  // namespace thermedge

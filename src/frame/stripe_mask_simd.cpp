@@ -5,6 +5,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "stripe_mask_simd.cpp"
 #include "simd_config.hpp"
+#include "simd_dispatch.hpp"
 
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
@@ -167,43 +168,43 @@ HWY_EXPORT(subtract_offset_row);
 void square_row(const std::uint16_t* upper, const std::uint16_t* lower,
                 const std::int32_t* of_columns, std::int32_t of_row, int count,
                 std::int32_t* sums) {
-  HWY_DYNAMIC_DISPATCH(square_row)(upper, lower, of_columns, of_row, count, sums);
+  THERMEDGE_SIMD_DISPATCH(square_row)(upper, lower, of_columns, of_row, count, sums);
 }
 
 void binomial_row(const std::int32_t* centre, std::ptrdiff_t step, int count, std::int32_t* out) {
-  HWY_DYNAMIC_DISPATCH(binomial_row)(centre, step, count, out);
+  THERMEDGE_SIMD_DISPATCH(binomial_row)(centre, step, count, out);
 }
 
 void clamped_difference_row(const std::int32_t* ahead, const std::int32_t* behind,
                             std::int32_t most, int count, std::int32_t* out) {
-  HWY_DYNAMIC_DISPATCH(clamped_difference_row)(ahead, behind, most, count, out);
+  THERMEDGE_SIMD_DISPATCH(clamped_difference_row)(ahead, behind, most, count, out);
 }
 
 void slide_row(const std::int32_t* before, const std::int32_t* added, const std::int32_t* dropped,
                int count, std::int32_t* out) {
-  HWY_DYNAMIC_DISPATCH(slide_row)(before, added, dropped, count, out);
+  THERMEDGE_SIMD_DISPATCH(slide_row)(before, added, dropped, count, out);
 }
 
 void mark_beyond_row(const std::int32_t* values, std::int32_t limit, int count,
                      std::uint8_t* marks) {
-  HWY_DYNAMIC_DISPATCH(mark_beyond_row)(values, limit, count, marks);
+  THERMEDGE_SIMD_DISPATCH(mark_beyond_row)(values, limit, count, marks);
 }
 
 void mark_gradients_row(const std::int32_t* centre, std::ptrdiff_t stride, std::int32_t limit,
                         int count, std::uint8_t* upright, std::uint8_t* level) {
-  HWY_DYNAMIC_DISPATCH(mark_gradients_row)(centre, stride, limit, count, upright, level);
+  THERMEDGE_SIMD_DISPATCH(mark_gradients_row)(centre, stride, limit, count, upright, level);
 }
 
 void reach_row(const std::uint8_t* marks, int count, std::uint16_t* reach) {
-  HWY_DYNAMIC_DISPATCH(reach_row)(marks, count, reach);
+  THERMEDGE_SIMD_DISPATCH(reach_row)(marks, count, reach);
 }
 
 void subtract_offsets_row(const float* of_columns, float of_row, int width, std::uint16_t* counts) {
-  HWY_DYNAMIC_DISPATCH(subtract_offsets_row)(of_columns, of_row, width, counts);
+  THERMEDGE_SIMD_DISPATCH(subtract_offsets_row)(of_columns, of_row, width, counts);
 }
 
 void subtract_offset_row(float of_row, int width, std::uint16_t* counts) {
-  HWY_DYNAMIC_DISPATCH(subtract_offset_row)(of_row, width, counts);
+  THERMEDGE_SIMD_DISPATCH(subtract_offset_row)(of_row, width, counts);
 }
 
 }  // namespace thermedge::detail

@@ -442,6 +442,8 @@ void StripeFinder::measure(ImageView<const std::uint16_t> frame, double sigma_co
   }
 }
 
+Status StripeOptions::check() const { return check_ranges(*this, "stripes."); }
+
 void remove_stripes(const StripeOffsets& offsets, ImageView<std::uint16_t> frame) {
   if (offsets.columns.empty() && offsets.rows.empty()) {
     return;

@@ -1,77 +1,82 @@
 #include "thermedge/options.hpp"
 
-#include <charconv>
+#include <array>
+#include <string_view>
+#include <vector>
 
 namespace thermedge {
 namespace {
 
-std::string shortest(double value) {
-  char text[32];
-  const auto end = std::to_chars(std::begin(text), std::end(text), value).ptr;
-  return {std::begin(text), end};
+// The values of a group, in the order of its list.
+class ValueReader {
+ public:
+  template <class T, class Limits>
+  void operator()(std::string_view name, const T& value, const Limits&, std::string_view) {
+    names.emplace_back(name);
+    values.push_back(static_cast<double>(value));
+  }
+
+  std::vector<std::string_view> names;
+  std::vector<double> values;
+};
+
+// Fails where an option of a denoiser that is not the chosen one differs from the preset's.
+template <class Group>
+Status check_unused(DenoiseMethod owner, DenoiseMethod chosen, const Group& options,
+                    const Group& of_preset) {
+  if (owner == chosen) {
+    return {};
+  }
+  ValueReader set;
+  ValueReader usual;
+  visit_options(options, set);
+  visit_options(of_preset, usual);
+  const auto name_of = [](DenoiseMethod method) {
+    return std::string(kDenoiseMethods[static_cast<std::size_t>(method)].name);
+  };
+  for (std::size_t i = 0; i < set.values.size(); ++i) {
+    if (set.values[i] != usual.values[i]) {
+      return failure(ErrorCode::kInvalidArgument,
+                     "denoise." + name_of(owner) + "." + std::string(set.names[i]) +
+                         " is used with denoise.method = \"" + name_of(owner) +
+                         "\" only; it is \"" + name_of(chosen) + "\"");
+    }
+  }
+  return {};
+}
+
+Status check_denoisers(const DenoiseOptions& options, const DenoiseOptions& of_preset) {
+  const DenoiseMethod chosen = options.method;
+  return check_unused(DenoiseMethod::kGaussian, chosen, options.gaussian, of_preset.gaussian)
+      .and_then(
+          [&] { return check_unused(DenoiseMethod::kNlm, chosen, options.nlm, of_preset.nlm); })
+      .and_then(
+          [&] { return check_unused(DenoiseMethod::kBm3d, chosen, options.bm3d, of_preset.bm3d); });
+}
+
+// The first failure.
+template <class... Options>
+Status check_each(const Options&... options) {
+  Status first;
+  ((first = first.and_then([&] { return options.check(); })), ...);
+  return first;
 }
 
 }  // namespace
 
-namespace detail {
-
-std::string out_of_range(const std::string& name, double value, Bounds bounds) {
-  return name + " = " + shortest(value) + " is out of range: " + shortest(bounds.min) + " to " +
-         shortest(bounds.max);
+Status RobustOptions::check() const {
+  return check_each(oriented_filter, graph, gap_closing, corners);
 }
 
-BadPixelOptions robust_nuc() {
-  BadPixelOptions options;
-  options.stripes = true;
-  return options;
+Status PaperOptions::check() const {
+  return check_each(grey_scale, canny, contours, linking, corners, scoring);
 }
 
-DenoiseOptions robust_denoise() {
-  DenoiseOptions options;
-  options.sigma_scale = 1.2;
-  options.detrend = true;
-  options.bilateral.range_sigmas = 0.2;
-  return options;
+Status DetectorOptions::check() const {
+  return check_ranges(*this, "")
+      .and_then([&] { return check_each(bad_pixels, stripes, denoise, selection); })
+      .and_then([&] { return std::visit([](const auto& own) { return own.check(); }, own_); })
+      .and_then([&] { return check_denoisers(denoise, DetectorOptions(preset_).denoise); });
 }
-
-SelectionOptions robust_selection() {
-  SelectionOptions options;
-  options.keep_edges = 0;
-  options.min_score = -0.6;
-  options.max_false_alarms = 0.1;
-  return options;
-}
-
-}  // namespace detail
-
-DetectorOptions preset_options(Preset preset) {
-  DetectorOptions options;
-  options.preset = preset;
-  if (preset == Preset::kFast) {
-    options.denoise = {};
-    options.denoise.method = DenoiseMethod::kGaussian;
-    options.denoise.gaussian.sigma_px = 2;
-    options.denoise.bilateral.range_sigmas = 0.3;
-    options.denoise.detrend = true;
-    options.selection.min_score = 0.15;
-  } else if (preset == Preset::kPaper) {
-    options.edges = EdgeMethod::kCanny;
-    options.nuc = {};
-    options.denoise = {};
-    options.selection = {};
-  }
-  return options;
-}
-
-std::string_view preset_name(Preset preset) {
-  for (const auto& known : kPresets) {
-    if (known.value == preset) {
-      return known.name;
-    }
-  }
-  return "unknown";
-}
-
-Status check_options(const DetectorOptions& options) { return check_ranges(options, ""); }
 
 }  // namespace thermedge

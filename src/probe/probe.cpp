@@ -224,7 +224,7 @@ void RecordingProbe::Impl::end_freeze(ImageView<const std::uint16_t> frame, doub
 void RecordingProbe::Impl::add_bad_pixels(ImageView<const std::uint16_t> frame,
                                           double sigma_counts) {
   copy_pixels(frame, working.view());
-  replace_bad_pixels(working, sigma_counts, options.nuc, dead);
+  replace_bad_pixels(working, sigma_counts, options.bad_pixels, dead);
   for (const BadPixel& pixel : dead) {
     ++dead_frames(pixel.x, pixel.y);
   }
@@ -257,7 +257,8 @@ RecordingReport RecordingProbe::Impl::finish() const {
     result.flicker_counts = flicker.value();
   }
   result.series = series.samples();
-  result.suggested = suggest_options(result);
+  result.preset = options.preset;
+  result.suggested = suggest_options(result, result.preset);
   return result;
 }
 

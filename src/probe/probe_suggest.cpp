@@ -50,9 +50,9 @@ std::optional<double> better_gain(const RecordingReport& report, double now) {
 }
 
 void suggest_gain(const RecordingReport& report, std::vector<SuggestedOption>& options) {
-  const double now = DetectorOptions{}.scale.gain;
+  const double now = GreyScaleOptions{}.gain;
   if (const auto gain = better_gain(report, now)) {
-    options.push_back({"scale.gain", shortest(*gain),
+    options.push_back({"grey_scale.gain", shortest(*gain),
                        "clips " + percent(report.clipped_share(*gain)) + " of the pixels, gain " +
                            shortest(now) + " would clip " + percent(report.clipped_share(now))});
   }
@@ -69,30 +69,32 @@ void suggest_sigma(const RecordingReport& report, std::vector<SuggestedOption>& 
 
 }  // namespace
 
-std::vector<SuggestedOption> suggest_options(const RecordingReport& report) {
+std::vector<SuggestedOption> suggest_options(const RecordingReport& report, Preset preset) {
   std::vector<SuggestedOption> options;
-  const DetectorOptions defaults;
+  const DetectorOptions defaults(preset);
+  const PaperOptions* paper = defaults.paper();
   const double pixels = static_cast<double>(report.width) * report.height;
   if (report.passing_bad_pixels > kManyPassing * pixels) {
-    options.push_back({"nuc.threshold_sigmas", shortest(2 * defaults.nuc.threshold_sigmas),
+    options.push_back({"bad_pixels.threshold_sigmas",
+                       shortest(2 * defaults.bad_pixels.threshold_sigmas),
                        number(report.passing_bad_pixels, 0) +
                            " pixels a frame are taken for dead that soon recover"});
   }
   const double stripes = std::max(report.column_sigma_counts, report.row_sigma_counts);
-  if (stripes > kStripesToRemove * report.sigma_counts) {
-    options.push_back({"nuc.stripes", "true",
+  if (!defaults.stripes.remove && stripes > kStripesToRemove * report.sigma_counts) {
+    options.push_back({"stripes.remove", "true",
                        "columns or rows are offset by " + number(stripes, 1) +
                            " counts, which come out as edges"});
   }
-  if (report.container_bits == 16) {
+  if (paper != nullptr && report.container_bits == 16) {
     suggest_gain(report, options);
   }
   suggest_sigma(report, options);
   const double scale =
       static_cast<double>(report.width + report.height) / (kPaperWidth + kPaperHeight);
-  if (scale < 0.75) {
+  if (paper != nullptr && scale < 0.75) {
     options.push_back({"contours.min_component_px",
-                       number(std::round(defaults.contours.min_component_px * scale), 0),
+                       number(std::round(paper->contours.min_component_px * scale), 0),
                        "in proportion to the size of the frames"});
   }
   return options;

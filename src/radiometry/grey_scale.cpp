@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "grey_scale_simd.hpp"
-#include "thermedge/options.hpp"
 
 namespace thermedge {
 namespace {
@@ -21,6 +20,8 @@ std::string size_text(ImageView<T> image) {
 }
 
 }  // namespace
+
+Status GreyScaleOptions::check() const { return check_ranges(*this, "grey_scale."); }
 
 int median_counts(ImageView<const std::uint16_t> frame) {
   if (frame.empty()) {
@@ -49,7 +50,7 @@ Status scale_to_8bit(ImageView<const std::uint16_t> frame, const GreyScaleOption
                                                     " pixels for a frame of " + size_text(frame) +
                                                     "; both must have the same size");
   }
-  if (Status status = check_ranges(options, "scale."); !status) {
+  if (Status status = options.check(); !status) {
     return status;
   }
   const int median = median_counts(frame);

@@ -5,6 +5,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "grey_scale_simd.cpp"
 #include "simd_config.hpp"
+#include "simd_dispatch.hpp"
 
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
@@ -60,7 +61,7 @@ HWY_EXPORT(scale_row);
 
 void scale_row(const std::uint16_t* counts, int width, const Scaling& scaling,
                std::uint8_t* levels) {
-  HWY_DYNAMIC_DISPATCH(scale_row)(counts, width, scaling, levels);
+  THERMEDGE_SIMD_DISPATCH(scale_row)(counts, width, scaling, levels);
 }
 
 }  // namespace thermedge::detail

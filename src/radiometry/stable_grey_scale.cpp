@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "grey_scale_simd.hpp"
-#include "thermedge/options.hpp"
 #include "thermedge/radiometry/grey_scale.hpp"
 
 namespace thermedge {

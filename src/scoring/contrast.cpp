@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "edgel_runs_simd.hpp"
+#include "thermedge/stages/significance.hpp"
 
 namespace thermedge {
 namespace {
@@ -284,20 +285,6 @@ double number_of_tests(const EdgeSet& edges) {
   return std::max(tests, 1.0);
 }
 
-// What speaks for an edge: its contrast on the frame as it came, and its score, as far as a
-// denoiser can be trusted. On the edges that are found in noise it is a normal variable.
-struct FalseAlarmModel {
-  double per_score;
-  double most_score;
-  double mean;
-  double deviation;
-
-  // In standard deviations.
-  [[nodiscard]] double of(const Edge& edge) const {
-    return (edge.z + per_score * std::min(edge.score, most_score) - mean) / deviation;
-  }
-};
-
 // The contrast is that from kNearestPx to `farthest_px` on both sides. significance(contrast, edge)
 // is the z of an edge; orient(edge) may turn normals round before.
 template <class Orient, class Significance, class Tail>
@@ -332,7 +319,7 @@ std::array<Vector, 24> directions() {
 
 }  // namespace
 
-void measure_edges(ImageView<const std::uint16_t> frame, double sigma_counts, EdgeSet& edges) {
+void measure_contrast(ImageView<const std::uint16_t> frame, double sigma_counts, EdgeSet& edges) {
   constexpr double kFarthestPx = 3.5;
   measure_all(
       frame, sigma_counts, number_of_tests(edges), kFarthestPx, edges, [](const Edge&) {},
@@ -340,13 +327,11 @@ void measure_edges(ImageView<const std::uint16_t> frame, double sigma_counts, Ed
       [](const Edge& edge) { return std::log10(2.0) + log10_tail(edge.z); });
 }
 
-void measure_edges(ImageView<const std::uint16_t> frame, double sigma_counts,
-                   ImageView<const std::int32_t> direction, const SignificanceOptions& options,
-                   EdgeSet& edges) {
-  constexpr double kPixelsPerCandidate = 55000;
-  constexpr FalseAlarmModel kFalseAlarmModel{1.6, 0.5, 1.3, 1.3};
+void test_significance(ImageView<const std::uint16_t> frame, double sigma_counts,
+                       ImageView<const std::int32_t> direction, const SignificanceOptions& options,
+                       EdgeSet& edges) {
   constexpr double kFarthestPx = 4.5;
-  const double candidates = static_cast<double>(frame.size()) / kPixelsPerCandidate;
+  const auto pixels = static_cast<double>(frame.size());
   Edgels& edgels = edges.edgels;
   const auto along = directions();
   const auto orient = [&](const Edge& edge) {
@@ -367,8 +352,16 @@ void measure_edges(ImageView<const std::uint16_t> frame, double sigma_counts,
     const double stripes = options.stripe_sigmas * alignment(edgels, edge.edgels);
     return z_of(contrast, sigma_counts, stripes * stripes);
   };
-  measure_all(frame, sigma_counts, candidates, kFarthestPx, edges, orient, significance,
-              [&](const Edge& edge) { return log10_tail(kFalseAlarmModel.of(edge)); });
+  measure_all(frame, sigma_counts, 1, kFarthestPx, edges, orient, significance,
+              [&](const Edge& edge) {
+                return options.model ? options.model->log10_nfa(edge, pixels)
+                                     : std::numeric_limits<double>::quiet_NaN();
+              });
+}
+
+double FalseAlarmModel::log10_nfa(const Edge& edge, double pixels) const {
+  const double evidence = edge.z + per_score * std::min(edge.score, most_score);
+  return std::log10(pixels / px_per_candidate) + log10_tail((evidence - mean) / deviation);
 }
 
 void set_normals_from_shape(EdgeSet& edges) {

@@ -5,8 +5,6 @@
 #include <cmath>
 #include <tuple>
 
-#include "thermedge/options.hpp"
-
 namespace thermedge {
 namespace {
 
@@ -72,6 +70,8 @@ BoundingBox bounding_box(std::span<const Pixel> pixels) {
 
 }  // namespace
 
+Status ScoringOptions::check() const { return check_ranges(*this, "scoring."); }
+
 double edge_score(const EdgeScoreTerms& terms) {
   return terms.average_residual * terms.width * terms.height * terms.corners * terms.corners /
          (terms.points * terms.points * terms.connected_points * terms.loop_line_ratio);
@@ -108,7 +108,6 @@ Status Scorer::run(const LinkedContours& linked, const CornerSet& corners,
         score_by_saliency(linked.contours, suppressed_response);
         fill(linked, corners, edges);
         for (Edge& edge : edges.edges) {
-          edge.score = -edge.score;
           edge.display_strength =
               std::clamp((edge.score - kFaintest) / (kStrongest - kFaintest), 0.0, 1.0);
         }
@@ -118,8 +117,7 @@ Status Scorer::run(const LinkedContours& linked, const CornerSet& corners,
 void Scorer::score_by_saliency(const ContourSet& contours,
                                ImageView<const float> suppressed_response) {
   for (Ranked& ranked : order_) {
-    ranked.badness =
-        -saliency(contours.pixels(contours.items[ranked.contour]), suppressed_response);
+    ranked.score = saliency(contours.pixels(contours.items[ranked.contour]), suppressed_response);
   }
 }
 
@@ -162,7 +160,7 @@ void Scorer::collect_connections(const LinkedContours& linked) {
 Status Scorer::score_contours(const LinkedContours& linked, const CornerSet& corners,
                               double frame_width, double frame_height, EdgeSet& edges) {
   edges.clear();
-  if (Status status = check_ranges(options_, "scoring."); !status) {
+  if (Status status = options_.check(); !status) {
     return status;
   }
   assert(corners.ranges.size() == linked.contours.items.size());
@@ -186,14 +184,14 @@ Status Scorer::score_contours(const LinkedContours& linked, const CornerSet& cor
     }
     terms.loop_line_ratio = contour.closed ? options_.loop_line_ratio : 1;
     const double es = edge_score(terms);
-    order_.push_back({es, es, contour.points.count, i});
+    order_.push_back({-es, es, contour.points.count, i});
   }
   return {};
 }
 
 void Scorer::rank_contours() {
   std::sort(order_.begin(), order_.end(), [](const Ranked& a, const Ranked& b) {
-    return std::tie(a.badness, b.points, a.contour) < std::tie(b.badness, a.points, b.contour);
+    return std::tie(b.score, b.points, a.contour) < std::tie(a.score, a.points, b.contour);
   });
   rank_of_.resize(order_.size());
   for (std::size_t rank = 0; rank < order_.size(); ++rank) {
@@ -209,7 +207,7 @@ void Scorer::append_edge(const LinkedContours& linked, const CornerSet& corners,
   const auto indices = slice(corners.indices, corners.ranges[ranked.contour]);
   Edge edge;
   edge.index = edge.rank = static_cast<std::int32_t>(rank);
-  edge.score = ranked.badness;
+  edge.score = ranked.score;
   edge.display_strength =
       1 - static_cast<double>(rank) / std::max(static_cast<double>(order_.size()) - 1, 1.0);
   edge.es = ranked.es;

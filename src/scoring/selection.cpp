@@ -6,12 +6,12 @@
 #include <limits>
 #include <tuple>
 
-#include "thermedge/options.hpp"
-
 namespace thermedge {
 
+Status SelectionOptions::check() const { return check_ranges(*this, "selection."); }
+
 Status EdgeSelector::run(EdgeSet& edges) {
-  if (Status status = check_ranges(options_, "selection."); !status) {
+  if (Status status = options_.check(); !status) {
     return status;
   }
   bool in_order = true;

@@ -243,7 +243,7 @@ class ReferenceBm3d {
           continue;
         }
         const Group group = matches(levels, {x, y}, settings_.search_radius_px, stage.largest_group,
-                                    settings_.with_adjacent);
+                                    settings_.options.adjacent_blocks);
         wiener ? filter_wiener(guide, group) : filter_hard(group);
       }
     }

@@ -232,7 +232,7 @@ constexpr bool kInstrumented = false;
 #endif
 
 Image<float> read_counts(const std::string& part) {
-  const Result<io::Frame> frame =
+  const Result<io::SourceFrame> frame =
       io::read_picture((test::shared_directory() / "data/denoise" / part).string());
   EXPECT_TRUE(frame) << frame.error().message;
   Image<float> image(frame->counts.width(), frame->counts.height());

@@ -280,7 +280,7 @@ class Stages : public testing::Test {
   static DetectorOptions quick() {
     DetectorOptions options;
     options.denoise.method = DenoiseMethod::kNlm;
-    options.contours.min_component_px = 10;
+    options.paper()->contours.min_component_px = 10;
     options.threads = 1;
     return options;
   }
@@ -329,7 +329,7 @@ TEST_F(Stages, TakeFramesOfEverySizeAndContent) {
 
 TEST_F(Stages, RefuseOptionsOutOfRange) {
   DetectorOptions options = quick();
-  options.scale.gain = -1;
+  options.paper()->grey_scale.gain = -1;
   const auto sheet = StagesSheet::create(options);
   ASSERT_FALSE(sheet);
   EXPECT_NE(sheet.error().message.find("gain"), std::string::npos);
@@ -337,8 +337,9 @@ TEST_F(Stages, RefuseOptionsOutOfRange) {
 
 TEST(ComparisonSheet, HoldsTheMapsOfEachDetector) {
   ComparisonOptions options;
+  options.detector = DetectorOptions(Preset::kPaper);
   options.detector.denoise.method = DenoiseMethod::kGaussian;
-  options.detector.contours.min_component_px = 10;
+  options.detector.paper()->contours.min_component_px = 10;
   auto sheet = ComparisonSheet::create(options);
   ASSERT_TRUE(sheet);
   const Image<std::uint16_t> frame = small_desk();
@@ -348,9 +349,11 @@ TEST(ComparisonSheet, HoldsTheMapsOfEachDetector) {
   ASSERT_EQ(made->maps.size(), 6U);
 
   auto detector = Detector::create(options.detector);
-  const auto detection = detector->detect(frame);
+  Detection detection;
+  Intermediates steps;
+  ASSERT_TRUE(detector->detect(frame, detection, {&steps, {}}));
   Image<float> levels(96, 72);
-  copy_pixels((*detection)->levels, levels.view());
+  copy_pixels(steps.levels.view(), levels.view());
   Image<std::uint8_t> wanted(96, 72);
   for (std::size_t i = 0; i < 6; ++i) {
     const ComparedMap& map = made->maps[i];
@@ -360,7 +363,7 @@ TEST(ComparisonSheet, HoldsTheMapsOfEachDetector) {
           ClassicalDetector().run(levels, kClassicalMethods[i].method, wanted, *make_runner(1)));
     } else {
       EXPECT_EQ(map.name, "thermedge");
-      draw_mask((*detection)->edges, wanted);
+      draw_mask(detection.edges, wanted);
     }
     EXPECT_TRUE(test::same_pixels<std::uint8_t>(map.edges.view(), wanted.view())) << map.name;
     EXPECT_EQ(map.edge_pixels, count_fragments(wanted.view()).edge_pixels);
@@ -389,6 +392,7 @@ TEST(ComparisonSheet, DenoisesInFrontOfTheClassicalDetectors) {
 
 TEST(ComparisonSheet, TakesFramesOfEverySize) {
   ComparisonOptions options;
+  options.detector = DetectorOptions(Preset::kPaper);
   options.detector.denoise.method = DenoiseMethod::kNone;
   auto sheet = ComparisonSheet::create(options);
   ASSERT_TRUE(sheet);

@@ -20,14 +20,14 @@ using nlohmann::json;
 std::filesystem::path data_directory() { return THERMEDGE_TEST_DATA; }
 
 Detector make_detector(Preset preset) {
-  auto detector = Detector::create(preset_options(preset));
+  auto detector = Detector::create(DetectorOptions(preset));
   EXPECT_TRUE(detector);
   return std::move(*detector);
 }
 
-json to_json(const Result<const Detection*>& detection, const std::string& source, Preset preset) {
+json to_json(const Result<Detection>& detection, const std::string& source) {
   EXPECT_TRUE(detection);
-  return json::parse(io::edges_to_json(**detection, {source, std::string(preset_name(preset))}));
+  return json::parse(io::edges_to_json(*detection, source));
 }
 
 json detect(const std::string& spec, Preset preset) {
@@ -36,13 +36,13 @@ json detect(const std::string& spec, Preset preset) {
   const auto frame = sim::render(*scene, 0);
   EXPECT_TRUE(frame);
   auto detector = make_detector(preset);
-  return to_json(detector.detect(frame->counts), spec, preset);
+  return to_json(detector.detect(frame->counts), spec);
 }
 
 json trace(const std::string& map, Preset preset) {
   const auto edges = test::read_edge_map(data_directory() / "classical" / (map + ".png"));
   auto detector = make_detector(preset);
-  return to_json(detector.trace(edges), map, preset);
+  return to_json(detector.trace(edges), map);
 }
 
 // Results are promised to be equal to the bit; the tolerance is for the decimals of the file only.
@@ -64,7 +64,7 @@ void expect_same_edges(const json& found, const std::string& file) {
     const json& a = found["edges"][i];
     const json& b = wanted["edges"][i];
     const std::string what = "edge " + std::to_string(i);
-    for (const char* key : {"id", "rank", "closed", "corners", "connected", "points"}) {
+    for (const char* key : {"index", "rank", "closed", "corners", "connected", "points"}) {
       EXPECT_EQ(a[key], b[key]) << what << " " << key;
     }
     for (const char* key : {"score", "es", "z", "log10_nfa", "length_px", "contrast_counts"}) {

@@ -23,9 +23,9 @@ constexpr double kPixel = 1e-3;
 
 std::uint64_t noise_hash(const Detection& found) {
   return Hash()
-      .add_rounded(found.noise.sigma_counts, kRelative)
-      .add_rounded(found.noise.column_sigma_counts, kRelative)
-      .add_rounded(found.noise.row_sigma_counts, kRelative)
+      .add_rounded(found.corrections.noise.sigma_counts, kRelative)
+      .add_rounded(found.corrections.noise.column_sigma_counts, kRelative)
+      .add_rounded(found.corrections.noise.row_sigma_counts, kRelative)
       .add_rounded(found.sigma_counts, kRelative)
       .add_rounded(found.range_counts, kRelative)
       .add_rounded(found.unit_counts, kRelative)
@@ -34,7 +34,7 @@ std::uint64_t noise_hash(const Detection& found) {
 
 std::uint64_t dead_pixels_hash(const Detection& found) {
   Hash hash;
-  for (const BadPixel& pixel : found.bad_pixels) {
+  for (const BadPixel& pixel : found.corrections.bad_pixels) {
     hash.add(pixel.x).add(pixel.y);
   }
   return hash.value();
@@ -42,7 +42,8 @@ std::uint64_t dead_pixels_hash(const Detection& found) {
 
 std::uint64_t stripes_hash(const Detection& found) {
   Hash hash;
-  for (const auto* offsets : {&found.stripes->columns, &found.stripes->rows}) {
+  for (const auto* offsets :
+       {&found.corrections.stripes.columns, &found.corrections.stripes.rows}) {
     hash.add(offsets->size());
     for (const float offset : *offsets) {
       hash.add_rounded(static_cast<double>(offset), 1e-4);
@@ -64,16 +65,16 @@ void add_contours(const ContourSet& set, Hash& hash) {
   }
 }
 
-std::uint64_t contours_hash(const Detection& found) {
+std::uint64_t contours_hash(const Intermediates& steps) {
   Hash hash;
-  add_contours(*found.contours, hash);
+  add_contours(steps.contours, hash);
   return hash.value();
 }
 
-std::uint64_t linked_hash(const Detection& found) {
+std::uint64_t linked_hash(const Intermediates& steps) {
   Hash hash;
-  add_contours(found.linked->contours, hash);
-  for (const Link& link : found.linked->links) {
+  add_contours(steps.linked.contours, hash);
+  for (const Link& link : steps.linked.links) {
     hash.add(static_cast<int>(link.type)).add(link.a).add(link.b).add(link.from).add(link.to);
   }
   return hash.value();
@@ -135,17 +136,18 @@ std::uint64_t selection_hash(const Detection& found) {
   return hash.value();
 }
 
-StageHashes hashes_of(ImageView<const std::uint16_t> counts, const Detection& found) {
+StageHashes hashes_of(ImageView<const std::uint16_t> counts, const Detection& found,
+                      const Intermediates& steps) {
   return {{"frame", Hash().add_pixels(counts).value()},
           {"noise", noise_hash(found)},
           {"dead pixels", dead_pixels_hash(found)},
           {"stripes", stripes_hash(found)},
-          {"corrected", Hash().add_pixels(found.corrected).value()},
-          {"levels", Hash().add_pixels(found.levels).value()},
-          {"denoised", Hash().add_pixels(found.denoised).value()},
-          {"edge pixels", Hash().add_pixels(found.edge_map).value()},
-          {"contours", contours_hash(found)},
-          {"linked", linked_hash(found)},
+          {"corrected", Hash().add_pixels(steps.corrected.view()).value()},
+          {"levels", Hash().add_pixels(steps.levels.view()).value()},
+          {"denoised", Hash().add_pixels(steps.denoised.view()).value()},
+          {"edge pixels", Hash().add_pixels(steps.edge_map.view()).value()},
+          {"contours", contours_hash(steps)},
+          {"linked", linked_hash(steps)},
           {"corners", corners_hash(found)},
           {"scores", scores_hash(found)},
           {"significance", significance_hash(found)},
@@ -168,17 +170,18 @@ void expect_hashes(const std::string& spec, const StageHashes& wanted) {
   ASSERT_TRUE(scene);
   const auto frame = sim::render(*scene, 0);
   ASSERT_TRUE(frame);
-  auto detector = Detector::create(preset_options(Preset::kRobust));
+  auto detector = Detector::create(DetectorOptions(Preset::kRobust));
   ASSERT_TRUE(detector);
-  const auto found = detector->detect(frame->counts);
-  ASSERT_TRUE(found);
+  Detection found;
+  Intermediates steps;
+  ASSERT_TRUE(detector->detect(frame->counts, found, {&steps, {}}));
   // Each stage has something to do.
-  EXPECT_FALSE((*found)->bad_pixels.empty());
-  EXPECT_FALSE((*found)->stripes->columns.empty());
-  EXPECT_FALSE((*found)->linked->links.empty());
-  EXPECT_GT((*found)->edges.kept, 5U);
-  EXPECT_LT((*found)->edges.kept, (*found)->edges.edges.size());
-  EXPECT_EQ(table(hashes_of(frame->counts, **found)), table(wanted));
+  EXPECT_FALSE(found.corrections.bad_pixels.empty());
+  EXPECT_FALSE(found.corrections.stripes.columns.empty());
+  EXPECT_FALSE(steps.linked.links.empty());
+  EXPECT_GT(found.edges.kept, 5U);
+  EXPECT_LT(found.edges.kept, found.edges.edges.size());
+  EXPECT_EQ(table(hashes_of(frame->counts, found, steps)), table(wanted));
 }
 
 TEST(GoldenStages, OfRobustInLittleNoise) {

@@ -40,7 +40,7 @@ Detection two_edges() {
 }
 
 TEST(EdgesJson, HoldsTheKeptEdges) {
-  const auto json = nlohmann::json::parse(edges_to_json(two_edges(), {"a.png", "paper"}));
+  const auto json = nlohmann::json::parse(edges_to_json(two_edges(), ""));
   EXPECT_EQ(json["source"], "a.png");
   EXPECT_EQ(json["sigma_counts"], 5.8);
   ASSERT_EQ(json["edges"].size(), 1U);
@@ -58,32 +58,32 @@ TEST(EdgesJson, HoldsTheKeptEdges) {
 TEST(EdgesJson, RoundsPointsToAThousandth) {
   Detection detection = two_edges();
   detection.edges.kept = 2;
-  const auto json = nlohmann::json::parse(edges_to_json(detection, {"", ""}));
+  const auto json = nlohmann::json::parse(edges_to_json(detection, ""));
   EXPECT_EQ(json["edges"][1]["points"][1][0], 12.346);
 }
 
 TEST(EdgesJson, SaysWhatWasMeasuredAndChosen) {
   Detection detection = two_edges();
-  detection.noise = {5.5, 1.25, 0.75};
-  const auto of_canny = nlohmann::json::parse(edges_to_json(detection, {"", ""}));
+  detection.corrections.noise = {5.5, 1.25, 0.75};
+  const auto of_canny = nlohmann::json::parse(edges_to_json(detection, ""));
   EXPECT_EQ(of_canny["stats"]["measured"]["column_sigma_counts"], 1.25);
   EXPECT_FALSE(of_canny["stats"]["measured"].contains("unit_counts"));
   detection.range_counts = 750;
   detection.unit_counts = 45.2;
   detection.kernel_px = {1.2, 2.5};
-  const auto json = nlohmann::json::parse(edges_to_json(detection, {"", ""}));
+  const auto json = nlohmann::json::parse(edges_to_json(detection, ""));
   EXPECT_EQ(json["stats"]["measured"]["unit_counts"], 45.2);
   EXPECT_EQ(json["stats"]["measured"]["kernel_px"], nlohmann::json({1.2, 2.5}));
 }
 
 TEST(EdgesJson, IsOneLineWhateverTheName) {
-  const std::string text = edges_to_json(two_edges(), {"a\"\n\xff.png", "paper"});
+  const std::string text = edges_to_json(two_edges(), "");
   EXPECT_EQ(text.find('\n'), text.size() - 1);
   EXPECT_TRUE(nlohmann::json::accept(text));
 }
 
 TEST(EdgesSvg, DrawsClosedPathsAndEscapesNames) {
-  const std::string svg = edges_to_svg(two_edges(), {"a<b>&c", "paper"});
+  const std::string svg = edges_to_svg(two_edges(), "a<b>&c");
   EXPECT_NE(svg.find("d=\"M1 1L8 1L4 6Z\""), std::string::npos) << svg;
   EXPECT_NE(svg.find("a&lt;b&gt;&amp;c"), std::string::npos);
   EXPECT_EQ(svg.find("edge1"), std::string::npos);
@@ -91,7 +91,7 @@ TEST(EdgesSvg, DrawsClosedPathsAndEscapesNames) {
 
 TEST(Overlay, DrawsKeptEdgesByRankAndOthersMutedAtTwiceTheSize) {
   Image<Rgb> overlay;
-  draw_overlay(two_edges(), overlay);
+  draw_overlay(two_edges(), {}, overlay);
   ASSERT_EQ(overlay.width(), 40);
   ASSERT_EQ(overlay.height(), 20);
   EXPECT_EQ(overlay(9, 3), rank_colour(0));         // on the side from (1, 1) to (8, 1)

@@ -67,14 +67,14 @@ TEST(Kind, IsFoundByContent) {
   EXPECT_TRUE(same_pixels<std::uint16_t>(frame->counts, image));
 }
 
-Result<Frame> decoded(const std::string& bytes, std::size_t page = 0) {
-  Frame frame;
+Result<SourceFrame> decoded(const std::string& bytes, std::size_t page = 0) {
+  SourceFrame frame;
   return decode_picture(std::as_bytes(std::span(bytes)), "file", {}, page, frame).map([&] {
     return std::move(frame);
   });
 }
 
-std::vector<int> pixels(const Result<Frame>& frame) {
+std::vector<int> pixels(const Result<SourceFrame>& frame) {
   EXPECT_TRUE(frame) << frame.error().message;
   std::vector<int> values;
   for (int y = 0; frame && y < frame->counts.height(); ++y) {
@@ -213,7 +213,7 @@ TEST(Decoder, SaysWhatItRefuses) {
 TEST(Limits, AreCheckedBeforeAllocation) {
   Limits tight;
   tight.max_bytes = 100;
-  Frame frame;
+  SourceFrame frame;
   const std::string file = "P5\n11 10\n255\n" + std::string(110, 'x');
   const Status status = decode_picture(std::as_bytes(std::span(file)), "file", tight, 0, frame);
   ASSERT_FALSE(status);

@@ -31,7 +31,7 @@ std::string stack(const std::string& values) {
 // What a source gives: pixels as letters, '!' for an error.
 std::string letters(FrameSource& source) {
   std::string text;
-  Frame frame;
+  SourceFrame frame;
   for (;;) {
     const auto more = source.next(frame);
     if (more && !*more) {
@@ -119,7 +119,7 @@ TEST(StandardInputFrames, ComeOneByOneWithoutReadingAhead) {
   const auto source = open_files({"-"}, raw(2, 1, RawFormat::kGray16Le));
   ASSERT_TRUE(source) << source.error().message;
   EXPECT_EQ((*source)->size_hint(), 1U) << "until it is opened, an input is one frame";
-  Frame frame;
+  SourceFrame frame;
   input.write(std::string("a\0b\0c\0", 6));
   ASSERT_EQ((*source)->next(frame), true);
   EXPECT_EQ(StandardInput::waiting_bytes(), 2);
@@ -148,7 +148,7 @@ TEST(StandardInputFrames, ThatEndEarlyAreAnError) {
     input.write(text);
     input.end();
     const auto source = open_files({"-"}, raw(2, 2));
-    Frame frame;
+    SourceFrame frame;
     Result<bool> more = (*source)->next(frame);
     if (more && *more) {
       more = (*source)->next(frame);
@@ -165,7 +165,7 @@ TEST(RawFiles, OfOneFrameAreNamedLikePictures) {
   write_text(directory / "empty.raw", "");
   for (const auto& [width, stem] : {std::pair{4, "x"}, {2, "x_0000"}}) {
     const auto source = open_files({directory / "x.raw"}, raw(width, 1));
-    Frame frame;
+    SourceFrame frame;
     ASSERT_EQ((*source)->next(frame), true);
     EXPECT_EQ(frame.stem, stem);
     EXPECT_EQ((*source)->size_hint(), 4U / static_cast<unsigned>(width));
@@ -236,7 +236,7 @@ TEST(Inputs, AreReadWithinTheLimits) {
   SourceOptions options;
   options.limits.max_bytes = 1000;
   const auto source = open_files({directory / "a.pgm"}, options);
-  Frame frame;
+  SourceFrame frame;
   const auto more = (*source)->next(frame);
   ASSERT_FALSE(more);
   EXPECT_EQ(more.error().code, ErrorCode::kLimitExceeded);
@@ -250,7 +250,7 @@ TEST(Inputs, TellHowFarTheyReach) {
   write_text(directory / "2.pgm", pixel('d'));
   const auto source = open_files({directory.path().string()}, {});
   EXPECT_EQ((*source)->size_hint(), 2U);
-  Frame frame;
+  SourceFrame frame;
   ASSERT_EQ((*source)->next(frame), true);
   EXPECT_EQ((*source)->size_hint(), 4U);
   EXPECT_EQ(letters(**source), "bcd");
@@ -261,7 +261,7 @@ TEST(Inputs, ReuseTheMemoryOfTheFrame) {
   const TemporaryDirectory directory;
   write_text(directory / "1.npy", stack("abc"));
   const auto source = open_files({directory / "1.npy"}, {});
-  Frame frame;
+  SourceFrame frame;
   ASSERT_EQ((*source)->next(frame), true);
   const std::uint16_t* pixels = frame.counts.row(0);
   ASSERT_EQ((*source)->next(frame), true);

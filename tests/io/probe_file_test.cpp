@@ -59,7 +59,8 @@ RecordingReport report_with_every_suggestion() {
   report.passing_bad_pixels = 30;
   report.row_sigma_counts = 2.1;
   report.clipping = {{0.5, 0.6}, {0.2, 0.3}, {0.1, 0.021}, {0.05, 0.001}, {0.02, 0}};
-  report.suggested = suggest_options(report);
+  report.preset = Preset::kPaper;
+  report.suggested = suggest_options(report, report.preset);
   return report;
 }
 
@@ -67,21 +68,22 @@ TEST(ProbeFile, SuggestionsAreTakenByTheDetector) {
   const auto report = report_with_every_suggestion();
   ASSERT_EQ(report.suggested.size(), 5U);
   // Of the presets, `paper` has none of the suggested values already.
-  const DetectorOptions before = preset_options(Preset::kPaper);
+  const DetectorOptions before = DetectorOptions(Preset::kPaper);
   DetectorOptions options = before;
-  const Status status = parse_config(suggested_toml(report), "probe.toml", options);
+  const Status status =
+      parse_config(suggested_toml(report), "probe.toml", PresetChoice::kFree, options);
   ASSERT_TRUE(status) << status.error().message;
-  EXPECT_EQ(options.scale.gain, 0.05);
+  EXPECT_EQ(options.paper()->grey_scale.gain, 0.05);
   EXPECT_EQ(options.denoise.sigma_counts, 9.6);
-  EXPECT_EQ(options.nuc.threshold_sigmas, 12);
-  EXPECT_EQ(options.contours.min_component_px, 21);
-  EXPECT_TRUE(options.nuc.stripes);
-  EXPECT_NE(before.scale.gain, 0.05);
+  EXPECT_EQ(options.bad_pixels.threshold_sigmas, 12);
+  EXPECT_EQ(options.paper()->contours.min_component_px, 21);
+  EXPECT_TRUE(options.stripes.remove);
+  EXPECT_NE(before.paper()->grey_scale.gain, 0.05);
   EXPECT_NE(before.denoise.sigma_counts, 9.6);
-  EXPECT_NE(before.nuc.threshold_sigmas, 12);
-  EXPECT_NE(before.contours.min_component_px, 21);
-  EXPECT_FALSE(before.nuc.stripes);
-  EXPECT_TRUE(check_options(options));
+  EXPECT_NE(before.bad_pixels.threshold_sigmas, 12);
+  EXPECT_NE(before.paper()->contours.min_component_px, 21);
+  EXPECT_FALSE(before.stripes.remove);
+  EXPECT_TRUE(options.check());
   DetectorOptions set = before;
   for (const SuggestedOption& option : report.suggested) {
     EXPECT_TRUE(apply_setting(option.name + "=" + option.value, set)) << option.name;
@@ -92,8 +94,9 @@ TEST(ProbeFile, SuggestionsAreTakenByTheDetector) {
 TEST(ProbeFile, WithoutSuggestionsTheTomlIsStillRead) {
   RecordingReport report = report_with_every_suggestion();
   report.suggested.clear();
+  report.preset = Preset::kRobust;
   DetectorOptions options;
-  ASSERT_TRUE(parse_config(suggested_toml(report), "probe.toml", options));
+  ASSERT_TRUE(parse_config(suggested_toml(report), "probe.toml", PresetChoice::kFree, options));
   EXPECT_EQ(dump_config(options), dump_config(DetectorOptions{}));
 }
 
@@ -114,7 +117,7 @@ TEST_P(SuggestedGain, IsTheFinestThatClipsLittle) {
   report.sigma_counts = GetParam().sigma;
   report.frame_sigma_counts = GetParam().sigma;
   report.clipping = GetParam().clipping;
-  const auto options = suggest_options(report);
+  const auto options = suggest_options(report, Preset::kPaper);
   EXPECT_EQ(options.empty() ? "" : options[0].value, GetParam().gain);
 }
 

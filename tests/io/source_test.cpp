@@ -28,7 +28,7 @@ Sequence read_all(const std::vector<std::string>& inputs, const SourceOptions& o
     sequence.errors.push_back(source.error().message);
     return sequence;
   }
-  Frame frame;
+  SourceFrame frame;
   for (;;) {
     const auto more = (*source)->next(frame);
     if (!more) {

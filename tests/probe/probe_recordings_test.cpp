@@ -15,7 +15,7 @@ namespace {
 std::vector<Image<std::uint16_t>> frames_of(const std::string& part) {
   std::vector<Image<std::uint16_t>> frames;
   const auto source = io::open_files({(test::shared_directory() / part).string()}, {});
-  io::Frame frame;
+  io::SourceFrame frame;
   for (;;) {
     const auto more = (*source)->next(frame);
     EXPECT_TRUE(more) << more.error().message;

@@ -192,15 +192,16 @@ TEST(CornersOfMovedContours, OfSymmetricShapesAreMoved) {
 
 TEST(CornersOfMovedContours, OfRecordedFramesAreMoved) {
   THERMEDGE_NEEDS_SHARED("data/optris_pi450");
-  auto detector = Detector::create(preset_options(Preset::kFast));
+  auto detector = Detector::create(DetectorOptions(Preset::kFast));
   ASSERT_TRUE(detector);
   std::size_t corners = 0;
   for (const char* name : {"frame000000.png", "frame000040.png", "frame000077.png"}) {
     const auto frame = io::read_picture((shared_directory() / "data/optris_pi450" / name).string());
     ASSERT_TRUE(frame);
-    const auto detection = detector->detect(frame->counts, frame->bits);
-    ASSERT_TRUE(detection);
-    corners += expect_equivariant((*detection)->linked->contours);
+    Detection detection;
+    Intermediates steps;
+    ASSERT_TRUE(detector->detect(frame->frame(), detection, {&steps, {}}));
+    corners += expect_equivariant(steps.linked.contours);
   }
   EXPECT_GT(corners, 500U);
 }
@@ -217,7 +218,7 @@ TEST(CornersOfMovedMaps, AreMoved) {
   for (const Pixel pixel : line_pixels(bend_points({60.5, 78.2}, 30, 10, -60))) {
     map(pixel.x, pixel.y) = 255;
   }
-  auto detector = Detector::create(preset_options(Preset::kRobust));
+  auto detector = Detector::create(DetectorOptions(Preset::kRobust));
   ASSERT_TRUE(detector);
   const auto corners_in = [&](int width, int height, const Map& to) {
     auto moved = blank_map(width, height);
@@ -227,7 +228,7 @@ TEST(CornersOfMovedMaps, AreMoved) {
         moved(at.x, at.y) = map(x, y);
       }
     }
-    const EdgeSet& set = (*detector->trace(moved))->edges;
+    const EdgeSet set = detector->trace(moved)->edges;
     std::set<std::pair<int, int>> corners;
     for (const Edge& edge : set.edges) {
       for (const std::uint32_t corner : set.corners_of(edge)) {
@@ -245,23 +246,6 @@ TEST(CornersOfMovedMaps, AreMoved) {
   EXPECT_EQ(corners_in(160, 150, moved), mapped(corners, moved)[0]);
   EXPECT_EQ(corners_in(90, 120, transposed), mapped(corners, transposed)[0]);
   EXPECT_EQ(corners_in(120, 90, mirrored), mapped(corners, mirrored)[0]);
-}
-
-// An option of the paper's linking.
-TEST(CornersOfMovedMaps, DoNotDependOnOptionsOfThePaper) {
-  auto map = blank_map(120, 90);
-  for (const Pixel pixel : outline_pixels(polygon_points({60.3, 45.2}, 30, 4, 17))) {
-    map(pixel.x, pixel.y) = 255;
-  }
-  DetectorOptions options = preset_options(Preset::kRobust);
-  auto detector = Detector::create(options);
-  options.linking.gap_px = 0;
-  options.paper_corners.end_distance_px = 40;
-  options.paper_corners.sigma_px = 1;
-  auto other = Detector::create(options);
-  ASSERT_TRUE(detector && other);
-  EXPECT_EQ((*detector->trace(map))->edges.corners, (*other->trace(map))->edges.corners);
-  EXPECT_EQ((*detector->trace(map))->edges.corners.size(), 4U);
 }
 
 }  // namespace

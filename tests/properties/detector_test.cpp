@@ -36,7 +36,7 @@ Detector detector(const DetectorOptions& options) {
 
 // The whole result as text, without the times.
 std::string fingerprint(const Detection& detection) {
-  const std::string json = io::edges_to_json(detection, {"", ""});
+  const std::string json = io::edges_to_json(detection, "");
   return json.substr(0, json.find("\"stats\""));
 }
 
@@ -50,8 +50,8 @@ void expect_the_same_everywhere(DetectorOptions options) {
       Detector one = detector(options);
       const auto detection = one.detect(frame.counts);
       ASSERT_TRUE(detection);
-      ASSERT_GT((*detection)->edges.kept, 3U);
-      const std::string found = fingerprint(**detection);
+      ASSERT_GT(detection->edges.kept, 3U);
+      const std::string found = fingerprint(*detection);
       expected = expected.empty() ? found : expected;
       EXPECT_EQ(found, expected) << threads << " threads";
     }
@@ -72,9 +72,9 @@ void expect_all_sizes_taken(const DetectorOptions& options, int smallest, int la
 class EveryDenoiser : public testing::TestWithParam<DenoiseMethod> {};
 
 TEST_P(EveryDenoiser, GivesTheSameEdgesForAllThreadCountsAndSimdTargets) {
-  DetectorOptions options = preset_options(Preset::kPaper);
+  DetectorOptions options = DetectorOptions(Preset::kPaper);
   options.denoise.method = GetParam();
-  options.contours.min_component_px = 10;
+  options.paper()->contours.min_component_px = 10;
   expect_the_same_everywhere(options);
 }
 
@@ -87,8 +87,8 @@ INSTANTIATE_TEST_SUITE_P(All, EveryDenoiser,
                          });
 
 TEST(RobustDetector, GivesTheSameEdgesForAllThreadCountsAndSimdTargets) {
-  expect_the_same_everywhere(preset_options(Preset::kRobust));
-  expect_the_same_everywhere(preset_options(Preset::kFast));
+  expect_the_same_everywhere(DetectorOptions(Preset::kRobust));
+  expect_the_same_everywhere(DetectorOptions(Preset::kFast));
 }
 
 // Offsets of columns and rows, dead pixels, and corners darker by `vignetting`.
@@ -115,7 +115,7 @@ class Presets : public testing::TestWithParam<Preset> {};
 
 TEST_P(Presets, FindNothingInNoise) {
   std::mt19937 random(11);
-  Detector one = detector(preset_options(GetParam()));
+  Detector one = detector(DetectorOptions(GetParam()));
   std::size_t found = 0;
   constexpr int kFrames = 90;
   for (int i = 0; i < kFrames; ++i) {
@@ -125,7 +125,7 @@ TEST_P(Presets, FindNothingInNoise) {
     if (i % 3 != 0) {
       spoil(frame, sigma / 3, i % 3 == 1 ? 0 : 5 * sigma, random);
     }
-    found += (*one.detect(frame))->edges.kept;
+    found += one.detect(frame)->edges.kept;
   }
   EXPECT_LE(found, kFrames / 10U);
 }
@@ -149,7 +149,7 @@ std::set<std::pair<float, float>> kept_pixels(const EdgeSet& set) {
 // little; an offset changes nothing.
 TEST(RobustDetector, IsBlindToOffsetAndGainOfTheCounts) {
   const auto frame = small_desk(6);
-  Detector one = detector(preset_options(Preset::kRobust));
+  Detector one = detector(DetectorOptions(Preset::kRobust));
   const auto changed = [&](int gain, int offset) {
     Image<std::uint16_t> counts(frame.counts.width(), frame.counts.height());
     for (int y = 0; y < counts.height(); ++y) {
@@ -157,7 +157,7 @@ TEST(RobustDetector, IsBlindToOffsetAndGainOfTheCounts) {
         counts(x, y) = static_cast<std::uint16_t>(gain * frame.counts(x, y) + offset);
       }
     }
-    return kept_pixels((*one.detect(counts))->edges);
+    return kept_pixels(one.detect(counts)->edges);
   };
   const auto first = changed(1, 0);
   const auto with_offset = changed(1, 1000);
@@ -172,17 +172,17 @@ TEST(RobustDetector, IsBlindToOffsetAndGainOfTheCounts) {
 }
 
 TEST(RobustDetector, TakesEveryFrameFromEightPixelsUp) {
-  expect_all_sizes_taken(preset_options(Preset::kRobust), 8, 26);
+  expect_all_sizes_taken(DetectorOptions(Preset::kRobust), 8, 26);
 }
 
 TEST(RobustDetector, SaysWhyEdgesWereDropped) {
   const auto frame = small_desk(20);
-  DetectorOptions options = preset_options(Preset::kRobust);
+  DetectorOptions options = DetectorOptions(Preset::kRobust);
   options.selection.keep_edges = 3;
   options.selection.min_score = 1.5;
   options.selection.max_false_alarms = 1e-6;
   Detector one = detector(options);
-  const EdgeSet& set = (*one.detect(frame.counts))->edges;
+  const EdgeSet set = one.detect(frame.counts)->edges;
   ASSERT_EQ(set.kept, 3U);
   for (std::size_t i = 0; i < set.edges.size(); ++i) {
     const Edge& edge = set.edges[i];
@@ -200,9 +200,9 @@ TEST(Detector, GivesTheSameForAFrameAgain) {
   const auto frame = small_desk(6);
   const auto other = test::noise_image<std::uint16_t>(192, 144, 3000, 50, 1);
   Detector one = detector({});
-  const std::string first = fingerprint(**one.detect(frame.counts));
+  const std::string first = fingerprint(*one.detect(frame.counts));
   ASSERT_TRUE(one.detect(other));
-  EXPECT_EQ(fingerprint(**one.detect(frame.counts)), first);
+  EXPECT_EQ(fingerprint(*one.detect(frame.counts)), first);
 }
 
 // Both between 4096 and 8192 counts, where floats are equally fine.
@@ -216,20 +216,20 @@ TEST(Detector, IsBlindToAnOffsetOfTheCounts) {
         counts(x, y) = static_cast<std::uint16_t>(frame.counts(x, y) + offset);
       }
     }
-    return fingerprint(**one.detect(counts));
+    return fingerprint(*one.detect(counts));
   };
   EXPECT_EQ(with_offset(4000), with_offset(2300));
 }
 
 TEST(Detector, KeepsBudgetsAndRanks) {
   const auto frame = small_desk(6);
-  DetectorOptions options = preset_options(Preset::kPaper);
-  options.contours.min_component_px = 0;
+  DetectorOptions options = DetectorOptions(Preset::kPaper);
+  options.paper()->contours.min_component_px = 0;
   options.selection.keep_edges = 5;
   Detector one = detector(options);
   const auto detection = one.detect(frame.counts);
   ASSERT_TRUE(detection);
-  const EdgeSet& set = (*detection)->edges;
+  const EdgeSet& set = detection->edges;
   ASSERT_GT(set.edges.size(), 5U);
   EXPECT_EQ(set.kept, 5U);
   for (std::size_t i = 0; i < set.edges.size(); ++i) {
@@ -242,7 +242,7 @@ TEST(Detector, KeepsBudgetsAndRanks) {
 }
 
 TEST(Detector, TakesEveryFrameFromOnePixelUp) {
-  expect_all_sizes_taken(preset_options(Preset::kPaper), 1, 20);
+  expect_all_sizes_taken(DetectorOptions(Preset::kPaper), 1, 20);
 }
 
 TEST(Detector, FindsNothingInAFlatFrame) {
@@ -252,7 +252,7 @@ TEST(Detector, FindsNothingInAFlatFrame) {
     Detector one = detector({});
     const auto detection = one.detect(flat);
     ASSERT_TRUE(detection);
-    EXPECT_TRUE((*detection)->edges.edges.empty());
+    EXPECT_TRUE(detection->edges.edges.empty());
   }
 }
 
@@ -265,8 +265,8 @@ TEST(RobustDetector, FindsNoTerracesInARoundedSlope) {
       slope(x, y) = static_cast<std::uint16_t>(std::lround(3000 + 0.04 * x + 0.03 * y + wall));
     }
   }
-  Detector one = detector(preset_options(Preset::kRobust));
-  EXPECT_EQ((*one.detect(slope))->edges.kept, 1U);
+  Detector one = detector(DetectorOptions(Preset::kRobust));
+  EXPECT_EQ(one.detect(slope)->edges.kept, 1U);
 }
 
 TEST(Detector, TakesAViewIntoALargerBuffer) {
@@ -276,16 +276,18 @@ TEST(Detector, TakesAViewIntoALargerBuffer) {
   const auto window = buffer.view().crop(17, 23, frame.counts.width(), frame.counts.height());
   copy_pixels(frame.counts.view(), window);
   Detector one = detector({});
-  const std::string first = fingerprint(**one.detect(frame.counts));
-  EXPECT_EQ(fingerprint(**one.detect(window)), first);
+  const std::string first = fingerprint(*one.detect(frame.counts));
+  EXPECT_EQ(fingerprint(*one.detect(window)), first);
 }
 
 TEST(Detector, TraceOfItsOwnEdgeMapGivesItsEdges) {
   const auto frame = small_desk(6);
-  Detector one = detector(preset_options(Preset::kPaper));
-  Detector other = detector(preset_options(Preset::kPaper));
-  const Detection& detected = **one.detect(frame.counts);
-  const Detection& traced = **other.trace(detected.edge_map);
+  Detector one = detector(DetectorOptions(Preset::kPaper));
+  Detector other = detector(DetectorOptions(Preset::kPaper));
+  Detection detected;
+  Intermediates steps;
+  ASSERT_TRUE(one.detect(frame.counts, detected, {&steps, {}}));
+  const Detection traced = *other.trace(steps.edge_map);
   ASSERT_EQ(detected.edges.edges.size(), traced.edges.edges.size());
   EXPECT_EQ(detected.edges.edgels.x, traced.edges.edgels.x);
   EXPECT_EQ(detected.edges.edgels.y, traced.edges.edgels.y);
@@ -293,8 +295,8 @@ TEST(Detector, TraceOfItsOwnEdgeMapGivesItsEdges) {
 }
 
 TEST(Detector, RefusesBadInputWithOneLine) {
-  DetectorOptions options;
-  options.canny.low_over_high = std::numeric_limits<double>::quiet_NaN();
+  DetectorOptions options(Preset::kPaper);
+  options.paper()->canny.low_over_high = std::numeric_limits<double>::quiet_NaN();
   const auto made = Detector::create(options);
   ASSERT_FALSE(made);
   EXPECT_EQ(made.error().message, "canny.low_over_high = nan is out of range: 0 to 1");
@@ -303,6 +305,126 @@ TEST(Detector, RefusesBadInputWithOneLine) {
   const auto nothing = one.detect(ImageView<const std::uint16_t>());
   ASSERT_FALSE(nothing);
   EXPECT_EQ(nothing.error().message, "frame: it has no pixels");
+}
+
+TEST(Detector, TakesFramesOfEveryPixelType) {
+  const auto frame = small_desk(20);
+  Detector one = detector({});
+  const Detection wanted = *one.detect(frame.counts);
+  ASSERT_GT(wanted.edges.kept, 3U);
+  Image<float> counts(frame.counts.width(), frame.counts.height());
+  copy_pixels(frame.counts.view(), counts.view());
+  EXPECT_EQ(fingerprint(*one.detect(counts)), fingerprint(wanted)) << "whole floats are counts";
+
+  // In degC, with a range of a few degrees: the same edges, their contrast in degC.
+  constexpr float kDegcPerCount = 0.01F;
+  Image<float> degc(counts.width(), counts.height());
+  for (int y = 0; y < degc.height(); ++y) {
+    for (int x = 0; x < degc.width(); ++x) {
+      degc(x, y) = kDegcPerCount * counts(x, y) - 40;
+    }
+  }
+  const Detection found = *one.detect(degc);
+  EXPECT_NEAR(found.sigma_counts, kDegcPerCount * wanted.sigma_counts,
+              0.02 * kDegcPerCount * wanted.sigma_counts);
+  EXPECT_NEAR(static_cast<double>(found.edges.kept), static_cast<double>(wanted.edges.kept), 2);
+  EXPECT_NEAR(found.edges.edges[0].contrast_counts,
+              kDegcPerCount * wanted.edges.edges[0].contrast_counts, 0.02);
+}
+
+TEST(Detector, InvalidPixelsMakeNoEdges) {
+  const auto frame = small_desk(20);
+  Image<float> holed(frame.counts.width(), frame.counts.height());
+  copy_pixels(frame.counts.view(), holed.view());
+  Image<std::uint8_t> valid(holed.width(), holed.height());
+  fill_pixels(valid.view(), std::uint8_t{1});
+  Image<std::uint16_t> masked = frame.counts.clone();
+  for (int y = 40; y < 90; ++y) {
+    for (int x = 60; x < 130; ++x) {
+      holed(x, y) = std::numeric_limits<float>::quiet_NaN();
+      valid(x, y) = 0;
+      masked(x, y) = 65535;
+    }
+  }
+  Frame with_mask(masked);
+  with_mask.valid = valid.view();
+  for (const Preset preset : {Preset::kRobust, Preset::kPaper}) {
+    Detector one = detector(DetectorOptions(preset));
+    const Detection by_nan = *one.detect(holed);
+    const Detection by_mask = *one.detect(with_mask);
+    ASSERT_GT(by_nan.edges.kept, 0U);
+    EXPECT_EQ(fingerprint(by_nan), fingerprint(by_mask));
+    for (const Edge& edge : by_nan.kept_edges()) {
+      for (const auto [x, y] : by_nan.points(edge)) {
+        EXPECT_FALSE(x > 60 && x < 129 && y > 40 && y < 89) << x << ", " << y;
+      }
+    }
+  }
+}
+
+TEST(Detector, HandsOnWhatTheSourceKnows) {
+  const auto counts = test::noise_image<std::uint16_t>(64, 48, 3000, 50, 1);
+  Frame frame(counts);
+  frame.stamp_ns = 123456789;
+  frame.index = 42;
+  frame.flags = kFrameAfterLoss;
+  const Detection found = *detector({}).detect(frame);
+  EXPECT_EQ(found.stamp_ns, 123456789);
+  EXPECT_EQ(found.index, 42);
+  EXPECT_EQ(found.flags, kFrameAfterLoss);
+}
+
+TEST(Detector, StopsBetweenStages) {
+  const auto counts = test::noise_image<std::uint16_t>(64, 48, 3000, 50, 1);
+  std::stop_source stop;
+  Detector one = detector({});
+  Detection found;
+  ASSERT_TRUE(one.detect(counts, found, {nullptr, stop.get_token()}));
+  stop.request_stop();
+  const Status status = one.detect(counts, found, {nullptr, stop.get_token()});
+  ASSERT_FALSE(status);
+  EXPECT_EQ(status.error().code, ErrorCode::kCancelled);
+  EXPECT_EQ(status.error().message, "detection was cancelled after correct");
+}
+
+TEST(Detector, RunsOnTheCallersRunnerAndOutlivesNoResult) {
+  const auto frame = small_desk(20);
+  const auto runner = make_runner(3);
+  auto one = Detector::create({}, *runner);
+  ASSERT_TRUE(one);
+  EXPECT_EQ(one->threads(), 3);
+  Detection found;
+  ASSERT_TRUE(one->detect(frame.counts, found));
+  one = Detector::create({});  // the first detector is gone, its result is not
+  EXPECT_EQ(fingerprint(found), fingerprint(*one->detect(frame.counts)));
+}
+
+TEST(Detector, EachHasItsOwnInstructionSet) {
+  const auto frame = small_desk(20);
+  DetectorOptions options;
+  options.simd = simd_targets().back();
+  Detector slow = detector(options);
+  const std::string found = fingerprint(*slow.detect(frame.counts));
+  EXPECT_EQ(SimdScope::current().name(), simd_targets().front());
+  EXPECT_EQ(fingerprint(*detector({}).detect(frame.counts)), found);
+  options.simd = "magic";
+  EXPECT_FALSE(Detector::create(options));
+}
+
+TEST(Detector, SaysWhereFalseAlarmsWereNotMeasured) {
+  const auto frame = small_desk(20);
+  DetectorOptions options;
+  EXPECT_EQ(detector(options).detect(frame.counts)->no_false_alarm_model, "");
+  options.denoise.sigma_counts = 25;
+  EXPECT_EQ(detector(options).detect(frame.counts)->no_false_alarm_model, "");
+  options.denoise.method = DenoiseMethod::kNlm;
+  const Detection found = *detector(options).detect(frame.counts);
+  EXPECT_EQ(found.no_false_alarm_model, "not measured with these options of denoise");
+  ASSERT_FALSE(found.edges.edges.empty());
+  for (const Edge& edge : found.edges.edges) {
+    EXPECT_TRUE(std::isnan(edge.log10_nfa));
+    EXPECT_NE(edge.status, EdgeStatus::kInsignificant);
+  }
 }
 
 }  // namespace

@@ -45,7 +45,7 @@ TEST(PoissonBound, IsExceededOnceInAThousandTimes) {
 class FalseAlarms : public testing::TestWithParam<Measured> {};
 
 TEST_P(FalseAlarms, AreNotMoreThanAskedFor) {
-  DetectorOptions options = preset_options(GetParam().preset);
+  DetectorOptions options = DetectorOptions(GetParam().preset);
   options.denoise.method = GetParam().denoiser;
   ASSERT_EQ(options.selection.max_false_alarms, 0.1);
   auto detector = Detector::create(options);
@@ -58,8 +58,8 @@ TEST_P(FalseAlarms, AreNotMoreThanAskedFor) {
     const auto frame = test::noise_image<std::uint16_t>(382, 288, 8000, sigma, 900 + seed);
     const auto found = detector->detect(frame);
     ASSERT_TRUE(found) << found.error().message;
-    kept += (*found)->edges.kept;
-    for (const Edge& edge : (*found)->edges.edges) {
+    kept += found->edges.kept;
+    for (const Edge& edge : found->edges.edges) {
       insignificant += edge.status == EdgeStatus::kInsignificant ? 1 : 0;
     }
   }

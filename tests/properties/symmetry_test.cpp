@@ -58,7 +58,7 @@ Counts transformed(const Counts& frame, const Symmetry& symmetry) {
 Mask kept_pixels(const DetectorOptions& options, const Counts& frame, const Symmetry& symmetry) {
   const Counts other = transformed(frame, symmetry);
   auto detector = Detector::create(options);
-  const EdgeSet& set = (*detector->detect(other))->edges;
+  const EdgeSet set = detector->detect(other)->edges;
   Mask mask(frame.width(), frame.height());
   fill_pixels(mask.view(), std::uint8_t{0});
   for (const Edge& edge : set.kept_edges()) {
@@ -98,7 +98,7 @@ struct Agreement {
 
 // Both ways, over the seven transformed frames.
 Agreement agreement(Preset preset, const Counts& frame) {
-  DetectorOptions options = preset_options(preset);
+  DetectorOptions options = DetectorOptions(preset);
   options.threads = 1;
   const Mask mask = kept_pixels(options, frame, {false, false, false});
   EXPECT_GT(std::count(mask.row(mask.height() / 2), mask.row(mask.height() / 2) + mask.width(), 1),
@@ -144,7 +144,7 @@ TEST_P(SymmetryOfEdges, HoldsOnFramesOfACamera) {
        {"frame000000.png", "frame000028.png", "frame000056.png", "frame000084.png"}) {
     auto source = io::open_files({(frames / name).string()}, {});
     ASSERT_TRUE(source);
-    io::Frame frame;
+    io::SourceFrame frame;
     ASSERT_TRUE((*source)->next(frame));
     mean += agreement(GetParam(), frame.counts).mean / 4;
   }

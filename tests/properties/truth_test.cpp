@@ -51,7 +51,7 @@ Quality measure(const std::string& spec) {
   const auto scene = sim::parse_scene(spec);
   const auto frame = sim::render(*scene, 0);
   auto detector = Detector::create({});
-  const EdgeSet& found = (*detector->detect(frame->counts))->edges;
+  const EdgeSet found = detector->detect(frame->counts)->edges;
   Neighbourhood near_truth(frame->counts.width(), frame->counts.height());
   Neighbourhood near_found(frame->counts.width(), frame->counts.height());
   std::size_t on_truth = 0;

@@ -197,7 +197,7 @@ TEST(StableGreyScale, IsStillOnARealRecording) {
       io::open_files({(test::shared_directory() / "data/optris_pi450").string()}, {});
   ASSERT_TRUE(source);
   StableGreyScale view;
-  io::Frame frame;
+  io::SourceFrame frame;
   Image<std::uint8_t> levels;
   double before = 0, change = 0, algorithm1_change = 0, clipped = 0;
   int median = 0, frames = 0;

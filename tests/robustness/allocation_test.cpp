@@ -69,14 +69,15 @@ void expect_none_after_the_second_frame(const DetectorOptions& options) {
   auto detector = Detector::create(options);
   ASSERT_TRUE(detector);
   const auto frames = growing_frames();
+  Detection detection;
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const long before = allocations;
-    const auto detection = detector->detect(frames[i]);
+    const Status status = detector->detect(frames[i], detection);
     const long spent = allocations - before;
-    ASSERT_TRUE(detection);
+    ASSERT_TRUE(status);
     if (i >= 2) {
-      EXPECT_EQ(spent, 0) << "frame " << i << " with " << (*detection)->edges.edges.size()
-                          << " edges, " << options.threads << " threads";
+      EXPECT_EQ(spent, 0) << "frame " << i << " with " << detection.edges.edges.size() << " edges, "
+                          << options.threads << " threads";
     }
   }
 }
@@ -84,7 +85,7 @@ void expect_none_after_the_second_frame(const DetectorOptions& options) {
 TEST(Allocation, OfTheRobustDetectorIsNoneAfterTheSecondFrame) {
   for (const int threads : {1, 2}) {
     for (const Preset preset : {Preset::kRobust, Preset::kFast}) {
-      DetectorOptions options = preset_options(preset);
+      DetectorOptions options = DetectorOptions(preset);
       options.threads = threads;
       expect_none_after_the_second_frame(options);
     }
@@ -94,11 +95,11 @@ TEST(Allocation, OfTheRobustDetectorIsNoneAfterTheSecondFrame) {
 class AllocationOf : public testing::TestWithParam<std::tuple<DenoiseMethod, int>> {};
 
 TEST_P(AllocationOf, ADetectorIsNoneAfterTheSecondFrame) {
-  DetectorOptions options = preset_options(Preset::kPaper);
+  DetectorOptions options = DetectorOptions(Preset::kPaper);
   std::tie(options.denoise.method, options.threads) = GetParam();
-  options.nuc.stripes = true;
-  options.contours.min_component_px = 0;  // as many curves as there can be
-  options.contours.min_length_px = 2;
+  options.stripes.remove = true;
+  options.paper()->contours.min_component_px = 0;  // as many curves as there can be
+  options.paper()->contours.min_length_px = 2;
   options.selection.keep_edges = 0;
   expect_none_after_the_second_frame(options);
 }

@@ -101,7 +101,7 @@ TEST_F(DenoiseProgram, KeepsMoreDetailThanTheSettingsForEdges) {
   };
   const double by_default = error("");
   const double for_edges = error(
-      "--set denoise.strength=1.2 --set denoise.shading=true "
+      "--set denoise.sigma_scale=1.2 --set denoise.detrend=true "
       "--set denoise.bilateral.range_sigmas=0.2 --set denoise.bm3d.profile=balanced");
   EXPECT_LT(by_default, 0.85 * for_edges);
   EXPECT_LT(by_default, 0.85 * 20);

@@ -101,7 +101,7 @@ std::string decode(const std::string& file) {
   if (!pages) {
     return pages.error().message;
   }
-  Frame frame;
+  io::SourceFrame frame;
   for (std::size_t page = 0; page < std::min<std::size_t>(*pages, 10); ++page) {
     if (const Status status = decode_picture(bytes, "hostile", kLimits, page, frame); !status) {
       return status.error().message;

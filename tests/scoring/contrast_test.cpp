@@ -1,4 +1,5 @@
 #include "thermedge/stages/contrast.hpp"
+#include "thermedge/stages/significance.hpp"
 
 #include <gtest/gtest.h>
 
@@ -67,7 +68,7 @@ TEST(Measure, GivesTheContrastOfASharpStep) {
   const auto frame = step_frame(60, 80, 200, 0.5, 5, [](int x, int) { return x - 30.0; });
   EdgeSet set;
   add_edge(set, vertical_line(30, 5, 75));
-  measure_edges(frame, 5, set);
+  measure_contrast(frame, 5, set);
   const Edge& edge = set.edges[0];
   EXPECT_NEAR(edge.contrast_counts, 200, 4);
   EXPECT_NEAR(edge.z, edge.contrast_counts / (5 * std::sqrt(2 / (3 * 70.0))), 1e-9 * edge.z);
@@ -81,7 +82,7 @@ TEST(Measure, GivesTheContrastOfABlurredStep) {
         step_frame(60, 80, 200, 1.0, 1, [&](int x, int) { return sign * (x - 30.0); });
     EdgeSet set;
     add_edge(set, vertical_line(30, 5, 75));
-    measure_edges(frame, 1, set);
+    measure_contrast(frame, 1, set);
     double expected = 0;
     for (const double distance : {1.5, 2.5, 3.5}) {
       const double ahead =
@@ -107,7 +108,7 @@ TEST(Measure, PointsNormalsOfClosedCurvesToTheWarmSide) {
     });
     EdgeSet set;
     add_edge(set, circle(40, 40, 20), true);
-    measure_edges(frame, 2, set);
+    measure_contrast(frame, 2, set);
     for (std::size_t i = 0; i < set.edgels.x.size(); ++i) {
       const double dx = 40 - set.edgels.x[i];
       const double dy = 40 - set.edgels.y[i];
@@ -138,7 +139,7 @@ TEST(Measure, FindsLittleInPureNoise) {
     }
     add_edge(set, points);
   }
-  measure_edges(frame, 10, set);
+  measure_contrast(frame, 10, set);
   double smallest_nfa = std::numeric_limits<double>::infinity();
   for (const Edge& edge : set.edges) {
     sum_of_squares += edge.z * edge.z;
@@ -163,7 +164,7 @@ TEST(Measure, GivesProbabilitiesFarOutInTheTail) {
     EdgeSet set;
     add_edge(set, {{10, 9}, {10, 10}});
     const double sigma = 1000 / z * std::sqrt(3.0);  // z = contrast / (sigma sqrt(2 / 6))
-    measure_edges(frame, sigma, set);
+    measure_contrast(frame, sigma, set);
     const double expected_contrast = 1000;
     EXPECT_NEAR(set.edges[0].contrast_counts, expected_contrast, 1e-9);
     EXPECT_NEAR(set.edges[0].z, z, 1e-9 * z);
@@ -185,7 +186,7 @@ TEST(Measure, CountsThePiecesOfAllCurvesAsTests) {
   EdgeSet set;
   add_edge(set, vertical_line(10, 5, 15));  // 45 pieces
   add_edge(set, vertical_line(20, 5, 16));  // 55 pieces
-  measure_edges(frame, 5, set);
+  measure_contrast(frame, 5, set);
   for (const Edge& edge : set.edges) {
     EXPECT_EQ(edge.z, 0);
     EXPECT_DOUBLE_EQ(edge.log10_nfa, 2);
@@ -197,7 +198,7 @@ TEST(Measure, OfAFrameWithoutNoiseIsCertain) {
   EdgeSet set;
   add_edge(set, vertical_line(15, 5, 25));
   add_edge(set, vertical_line(5, 5, 25));
-  measure_edges(frame, 0, set);
+  measure_contrast(frame, 0, set);
   EXPECT_EQ(set.edges[0].z, std::numeric_limits<double>::infinity());
   EXPECT_EQ(set.edges[0].log10_nfa, -std::numeric_limits<double>::infinity());
   EXPECT_NEAR(set.edgels.position_sigma_px[0], 1 / std::sqrt(12.0), 1e-6);
@@ -214,10 +215,11 @@ Image<std::int32_t> upright_directions(int width, int height) {
 }
 
 Edge proven(const Image<std::uint16_t>& frame, double sigma, double score,
-            const SignificanceOptions& options = {}) {
+            double stripe_sigmas = 0) {
   EdgeSet set;
   add_edge(set, vertical_line(30, 5, 75)).score = score;
-  measure_edges(frame, sigma, upright_directions(frame.width(), frame.height()), options, set);
+  test_significance(frame, sigma, upright_directions(frame.width(), frame.height()),
+                    {.stripe_sigmas = stripe_sigmas, .model = FalseAlarmModel{}}, set);
   return set.edges[0];
 }
 
@@ -251,7 +253,16 @@ TEST(Proof, StripesMayHaveMadeAnEdgeAlongAnAxis) {
   const double samples = 4 * 70;
   const double without = std::sqrt(2 / samples);
   const double with = std::sqrt(2 / samples + 0.2 * 0.2);
-  EXPECT_NEAR(proven(frame, 5, 0, {0.2}).z, proven(frame, 5, 0).z * without / with, 1e-9);
+  EXPECT_NEAR(proven(frame, 5, 0, 0.2).z, proven(frame, 5, 0).z * without / with, 1e-9);
+}
+
+TEST(Proof, WithoutAModelThereIsNoNumberOfFalseAlarms) {
+  EdgeSet set;
+  add_edge(set, vertical_line(30, 5, 75));
+  const auto frame = step_frame(60, 80, 50, 0.5, 5, [](int x, int) { return x - 30.0; });
+  test_significance(frame, 5, upright_directions(60, 80), {}, set);
+  EXPECT_TRUE(std::isnan(set.edges[0].log10_nfa));
+  EXPECT_GT(set.edges[0].z, 1);
 }
 
 TEST(Proof, WithoutNoiseEveryContrastIsCertain) {
@@ -267,7 +278,7 @@ TEST(Measure, LeavesOutWhatLiesOutsideTheFrame) {
   add_edge(set, vertical_line(0, 5, 35));   // none fits
   add_edge(set, vertical_line(39, 0, 40));  // on the border, into the corners
   add_edge(set, {{-100, -100}, {-99, -100}, {1e9F, 5}});
-  measure_edges(frame, 5, set);
+  measure_contrast(frame, 5, set);
   EXPECT_NEAR(set.edges[0].contrast_counts, 97.7, 1);
   EXPECT_NEAR(set.edges[0].z, set.edges[0].contrast_counts / 5 * std::sqrt(30 / 2.0), 1e-9);
   for (const std::size_t i : {1U, 2U, 3U}) {
@@ -287,8 +298,8 @@ TEST(Measure, DoesNotDependOnTheWalkingDirection) {
     add_edge(forward, points, closed);
     std::reverse(points.begin(), points.end());
     add_edge(backward, points, closed);
-    measure_edges(frame, 4, forward);
-    measure_edges(frame, 4, backward);
+    measure_contrast(frame, 4, forward);
+    measure_contrast(frame, 4, backward);
     const std::size_t last = points.size() - 1;
     for (std::size_t i = 0; i <= last; ++i) {
       EXPECT_EQ(forward.edgels.nx[i], backward.edgels.nx[last - i]);
@@ -307,7 +318,7 @@ TEST(Measure, SurvivesDegenerateEdges) {
   add_edge(set, {{5, 5}, {6, 5}});
   add_edge(set, {{5, 5}, {6, 5}}, true);
   add_edge(set, {{5, 5}, {5, 5}, {5, 5}});
-  measure_edges(frame, 10, set);
+  measure_contrast(frame, 10, set);
   for (std::size_t i = 0; i < set.edgels.x.size(); ++i) {
     EXPECT_NEAR(std::hypot(set.edgels.nx[i], set.edgels.ny[i]), 1, 1e-6);
   }
@@ -316,7 +327,7 @@ TEST(Measure, SurvivesDegenerateEdges) {
     EXPECT_TRUE(std::isfinite(edge.log10_nfa));
   }
   EdgeSet empty;
-  measure_edges(frame, 10, empty);
+  measure_contrast(frame, 10, empty);
   set_normals_from_shape(empty);
   EXPECT_TRUE(empty.edges.empty());
 }

@@ -268,7 +268,6 @@ TEST(Scorer, TheBestComeFirst) {
   for (std::size_t rank = 0; rank < 4; ++rank) {
     EXPECT_EQ(edges.edges[rank].rank, static_cast<int>(rank));
     EXPECT_EQ(edges.edges[rank].index, static_cast<int>(rank));
-    EXPECT_EQ(edges.edges[rank].track, -1);
   }
 }
 

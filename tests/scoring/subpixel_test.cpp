@@ -80,7 +80,7 @@ struct Errors {
 Errors errors_of(double snr, const std::function<double(double, double)>& distance) {
   std::mt19937 random(5);
   std::normal_distribution<double> normal(0, 240 / snr);
-  auto detector = Detector::create(preset_options(Preset::kRobust));
+  auto detector = Detector::create(DetectorOptions(Preset::kRobust));
   Errors errors;
   for (int trial = 0; trial < 4; ++trial) {
     Image<std::uint16_t> frame(200, 160);
@@ -90,7 +90,7 @@ Errors errors_of(double snr, const std::function<double(double, double)>& distan
         frame(x, y) = static_cast<std::uint16_t>(std::lround(8000 + step + normal(random)));
       }
     }
-    const EdgeSet& set = (*detector->detect(frame))->edges;
+    const EdgeSet set = detector->detect(frame)->edges;
     for (const Edge& edge : set.kept_edges()) {
       for (std::uint32_t i = edge.edgels.first; i < edge.edgels.first + edge.edgels.count; ++i) {
         const double x = set.edgels.x[i];

@@ -12,16 +12,16 @@
 
 namespace thermedge::test {
 
-inline Result<io::Frame> decoded(const std::string& bytes, std::size_t page = 0,
-                                 const Limits& limits = {}) {
-  io::Frame frame;
+inline Result<io::SourceFrame> decoded(const std::string& bytes, std::size_t page = 0,
+                                       const Limits& limits = {}) {
+  io::SourceFrame frame;
   return io::decode_picture(std::as_bytes(std::span(bytes)), "file", limits, page, frame).map([&] {
     return std::move(frame);
   });
 }
 
 // All pixels, row by row; a failure where there is no frame.
-inline std::vector<int> pixels_of(const Result<io::Frame>& frame) {
+inline std::vector<int> pixels_of(const Result<io::SourceFrame>& frame) {
   std::vector<int> values;
   if (!frame) {
     ADD_FAILURE() << frame.error().message;
@@ -34,7 +34,7 @@ inline std::vector<int> pixels_of(const Result<io::Frame>& frame) {
   return values;
 }
 
-inline std::string error_of(const Result<io::Frame>& frame) {
+inline std::string error_of(const Result<io::SourceFrame>& frame) {
   return frame ? "no error" : frame.error().message;
 }
 

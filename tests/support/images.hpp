@@ -86,11 +86,10 @@ class GuardedImage {
 template <class F>
 void for_each_simd_target(F&& check) {
   for (const std::string& target : simd_targets()) {
-    ASSERT_TRUE(set_simd_target(target));
+    const SimdScope scope(*SimdTarget::named(target));
     SCOPED_TRACE("SIMD target " + target);
     check(target);
   }
-  ASSERT_TRUE(set_simd_target("auto"));
 }
 
 // The recordings beside the checkout (THERMEDGE_SHARED names another place); they are optional.

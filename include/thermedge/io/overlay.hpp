@@ -17,9 +17,10 @@ void draw_view(ImageView<const std::uint16_t> counts, ImageView<std::uint8_t> vi
 // orange to purple, the darkest part left out.
 [[nodiscard]] Rgb rank_colour(double share);
 
-// The frame (or the edge map, where there is no frame) enlarged twice, darkened, with the kept
+// The frame (`counts`; black, where it is empty) enlarged twice, darkened, with the kept
 // edges as thin lines coloured by rank, their corners as small squares and junctions as rings.
 // Edges beyond the budgets are drawn in a muted blue, without corners.
-void draw_overlay(const Detection& detection, Image<Rgb>& overlay);
+void draw_overlay(const Detection& detection, ImageView<const std::uint16_t> counts,
+                  Image<Rgb>& overlay);
 
 }  // namespace thermedge::io

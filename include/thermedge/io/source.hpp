@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "thermedge/frame.hpp"
 #include "thermedge/image.hpp"
 #include "thermedge/limits.hpp"
 #include "thermedge/result.hpp"
@@ -15,12 +16,19 @@
 namespace thermedge::io {
 
 // One frame as read. 8-bit pictures are widened, not scaled.
-struct Frame {
+struct SourceFrame {
   Image<std::uint16_t> counts;
   int bits = 16;       // 8 or 16: of a pixel in the file
   std::string source;  // the file as the user named it; "x.tif[7]" where it holds several frames
   std::string stem;    // name for results: "x"; "x_0007" where the file holds several
   std::int64_t index = 0;  // 0, 1, 2 ... within the file
+
+  // As the detector takes it; valid as long as this lives and is not read into again.
+  [[nodiscard]] Frame frame() const {
+    Frame frame(counts, bits);
+    frame.index = index;
+    return frame;
+  }
 };
 
 enum class RawFormat { kGray16Le, kGray16Be, kGray8 };
@@ -38,7 +46,7 @@ class FrameSource {
   virtual ~FrameSource() = default;
   // Reads the next frame into `frame` (its memory is reused). true: a frame; false: the end. After
   // an error, the next call goes on behind the bad file.
-  [[nodiscard]] virtual Result<bool> next(Frame& frame) = 0;
+  [[nodiscard]] virtual Result<bool> next(SourceFrame& frame) = 0;
   // Number of files or frames there will be, as far as known; 0: not known.
   [[nodiscard]] virtual std::size_t size_hint() const = 0;
 };
@@ -57,7 +65,7 @@ class FrameSource {
 // Decodes a picture in memory; `name` is for messages. `page`: 0-based, of a TIFF or a stack; it is
 // an error where there is no such page. On error, the frame's pixels are unspecified. Thread-safe.
 [[nodiscard]] Status decode_picture(std::span<const std::byte> bytes, const std::string& name,
-                                    const Limits& limits, std::size_t page, Frame& frame);
+                                    const Limits& limits, std::size_t page, SourceFrame& frame);
 
 // Number of pages of a picture in memory: 1 but for multi-page TIFF and 3-D NPY. A TIFF that was
 // cut off counts one page more than it has; decoding that one says so.
@@ -65,6 +73,6 @@ class FrameSource {
                                               const std::string& name, const Limits& limits);
 
 // The first page of one picture file.
-[[nodiscard]] Result<Frame> read_picture(const std::string& path, const Limits& limits = {});
+[[nodiscard]] Result<SourceFrame> read_picture(const std::string& path, const Limits& limits = {});
 
 }  // namespace thermedge::io

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "thermedge/image.hpp"
+#include "thermedge/presets.hpp"
 #include "thermedge/radiometry/grey_scale.hpp"
 #include "thermedge/radiometry/planck.hpp"
 #include "thermedge/result.hpp"
@@ -19,7 +20,8 @@ namespace thermedge {
 struct ProbeOptions {
   double degc_per_count = kDegcPerCount;  // worth of a count, degC, > 0 (paper section 2.3)
   std::optional<CountsModel> camera;      // instead of it, where known: tells temperatures too
-  BadPixelOptions nuc;                    // the rule for dead pixels
+  BadPixelOptions bad_pixels;             // the rule for bad pixels
+  Preset preset = Preset::kRobust;        // whose options are suggested
 };
 
 // Counts of all frames: bin i holds the pixels with edges_counts[i] <= count < edges_counts[i + 1].
@@ -124,7 +126,8 @@ struct RecordingReport {
   std::optional<double> flicker_counts;  // |change of the median| from frame to frame, mean
   std::vector<ProbeSample> series;
 
-  std::vector<SuggestedOption> suggested;  // where the defaults don't suit
+  Preset preset = Preset::kRobust;         // whose options these are
+  std::vector<SuggestedOption> suggested;  // where its defaults don't suit
 
   // Share clipped at a gain of `clipping`; 0 for other gains.
   [[nodiscard]] double clipped_share(double gain) const;
@@ -152,7 +155,9 @@ class RecordingProbe {
   std::unique_ptr<Impl> impl_;
 };
 
-// The options that suit a recording, in the order of the detector's list; fills `suggested`.
-[[nodiscard]] std::vector<SuggestedOption> suggest_options(const RecordingReport& report);
+// The options of a preset that suit a recording, in the order of the detector's list; fills
+// `suggested`.
+[[nodiscard]] std::vector<SuggestedOption> suggest_options(const RecordingReport& report,
+                                                           Preset preset);
 
 }  // namespace thermedge

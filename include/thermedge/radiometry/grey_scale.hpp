@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "thermedge/image.hpp"
+#include "thermedge/option_list.hpp"
 #include "thermedge/result.hpp"
 
 namespace thermedge {
@@ -13,7 +14,15 @@ inline constexpr double kDegcPerCount = 0.01;
 
 struct GreyScaleOptions {
   double gain = 0.5;  // grey levels per count, > 0; 0.5 = 0.02 degC a level (paper Algorithm 1)
+
+  // Fails with one line that names the option: out of its range, or at odds with another one.
+  [[nodiscard]] Status check() const;
 };
+
+template <OptionsOf<GreyScaleOptions> O, class V>
+void visit_options(O& o, V&& v) {
+  v("gain", o.gain, Bounds{1e-6, 1000}, "grey levels per count (0.5: 0.02 degC a level)");
+}
 
 // Median of the counts: the element of rank (n - 1) / 2, so it is a count that occurs.
 // An empty frame gives 0. O(pixels), no allocation after the first call on a thread.

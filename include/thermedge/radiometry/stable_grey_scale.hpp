@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "thermedge/image.hpp"
+#include "thermedge/option_list.hpp"
 #include "thermedge/result.hpp"
 #include "thermedge/stages/noise.hpp"
 
@@ -23,6 +24,16 @@ struct StableGreyScaleOptions {
   // view centred on the median. Shorter flashes pass, and leave the view where it was.
   int cut_frames = 3;
 };
+
+template <OptionsOf<StableGreyScaleOptions> O, class V>
+void visit_options(O& o, V&& v) {
+  v("gain", o.gain, Bounds{0, 1000}, "grey levels per count (0: from the noise)");
+  v("dead_band_levels", o.dead_band_levels, Bounds{0, 127},
+    "levels that the median may move before the view follows");
+  v("slew_levels", o.slew_levels, Bounds{0, 255}, "levels a frame that the view may move");
+  v("cut_clipped_share", o.cut_clipped_share, Bounds{0, 1}, "clipped share that means a scene cut");
+  v("cut_frames", o.cut_frames, Bounds{1, 1000}, "clipped frames in a row that mean a scene cut");
+}
 
 enum class GreyScaleEvent { kNone, kStart, kSceneCut };
 

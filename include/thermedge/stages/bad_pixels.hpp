@@ -5,16 +5,27 @@
 #include <vector>
 
 #include "thermedge/image.hpp"
+#include "thermedge/option_list.hpp"
+#include "thermedge/result.hpp"
 
 namespace thermedge {
 
 struct BadPixelOptions {
-  bool bad_pixels = true;  // replace dead pixels by the median of their good neighbours
+  bool replace = true;  // replace dead pixels by the median of their good neighbours
   // How far a pixel must lie outside the range of its neighbours to count as dead, in units of the
   // noise, > 0. Smaller finds weaker ones and, below about 4, takes noise for dead pixels.
   double threshold_sigmas = 6;
-  bool stripes = false;  // remove the fixed offsets of columns and rows (stripes.hpp)
+
+  // Fails with one line that names the option: out of its range, or at odds with another one.
+  [[nodiscard]] Status check() const;
 };
+
+template <OptionsOf<BadPixelOptions> O, class V>
+void visit_options(O& o, V&& v) {
+  v("replace", o.replace, Bounds{0, 1}, "replace dead pixels by their neighbours' median");
+  v("threshold_sigmas", o.threshold_sigmas, Bounds{1, 1000},
+    "how far outside its neighbours' range a pixel is dead, in sigma");
+}
 
 struct BadPixel {
   int x = 0;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "thermedge/image.hpp"
+#include "thermedge/option_list.hpp"
 #include "thermedge/parallel_runner.hpp"
 #include "thermedge/result.hpp"
 
@@ -20,7 +21,19 @@ struct CannyOptions {
   // magnitude (64-bin histogram up to its maximum, upper bound of the bin), 0..1.
   double non_edge_share = 0.7;
   double low_over_high = 0.4;  // low threshold as a share of the high one, 0..1
+
+  // Fails with one line that names the option: out of its range, or at odds with another one.
+  [[nodiscard]] Status check() const;
 };
+
+template <OptionsOf<CannyOptions> O, class V>
+void visit_options(O& o, V&& v) {
+  v("high_threshold", o.high_threshold, Bounds{0, 1e6},
+    "Sobel magnitude of a certain edge, grey levels (0: automatic)");
+  v("non_edge_share", o.non_edge_share, Bounds{0, 1},
+    "automatic: share of pixels below the high one");
+  v("low_over_high", o.low_over_high, Bounds{0, 1}, "low threshold as a share of the high one");
+}
 
 // Gradients and edge pixels of one frame; the views live in the Canny object that made them, until
 // its next run.

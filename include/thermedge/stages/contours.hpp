@@ -8,6 +8,7 @@
 
 #include "thermedge/geometry.hpp"
 #include "thermedge/image.hpp"
+#include "thermedge/option_list.hpp"
 #include "thermedge/result.hpp"
 
 namespace thermedge {
@@ -37,7 +38,20 @@ struct ContourOptions {
   int min_length_px = 0;      // shortest curve kept, px; 0: more than (width + height) / 25 pixels
   double closed_gap_px = 5.66;  // a curve is closed where its ends are this near, px (the text says
                                 // 2-3; the public code that the paper used: squared distance <= 32)
+
+  // Fails with one line that names the option: out of its range, or at odds with another one.
+  [[nodiscard]] Status check() const;
 };
+
+template <OptionsOf<ContourOptions> O, class V>
+void visit_options(O& o, V&& v) {
+  v("min_component_px", o.min_component_px, Bounds{0, 1e9},
+    "components with fewer pixels are removed (0: none)");
+  v("gap_px", o.gap_px, Bounds{1, 8}, "reach of a walking step, px");
+  v("min_length_px", o.min_length_px, Bounds{0, 1e9},
+    "shortest curve, px (0: more than (width + height) / 25)");
+  v("closed_gap_px", o.closed_gap_px, Bounds{0, 100}, "ends this near close a curve, px");
+}
 
 // Walks the edge map column by column: seed = next set pixel; from there, within the window of
 // `gap_px`, always to the nearest set pixel (ties: smaller column, then smaller row), clearing what

@@ -1,4 +1,4 @@
-// What the frame says about an edge: contrast, significance, normals.
+// Contrast and normals of edges, measured on the frame.
 #pragma once
 
 #include <cstdint>
@@ -23,26 +23,7 @@ namespace thermedge {
 // the profile crosses its middle by sigma / slope, where slope is the magnitude, at least its own
 // noise sigma / sqrt(2); whole pixels add 1 / sqrt(12) px: sqrt(1/12 + (sigma / slope)^2), 0.29
 // .. 1.44 px. Thread-safe. Cost: about 0.1 us per edgel.
-void measure_edges(ImageView<const std::uint16_t> frame, double sigma_counts, EdgeSet& edges);
-
-struct SignificanceOptions {
-  // What is left of column and row offsets, sigma: edges along an axis may be made of it.
-  double stripe_sigmas = 0;
-};
-
-// The same for edges that must prove themselves. Contrast: as above, up to 4.5 px to both sides, so
-// that faint edges show. z is stricter. A slope of the scene is no edge: the contrast is reduced by
-// what the slope between the counts 16 px to both sides makes of it, to nothing at most.
-// z = contrast / (sigma sqrt(2 / samples + (stripe_sigmas a)^2)), where a is the mean of max(nx^16,
-// ny^16), 1 along an axis. Without noise (sigma 0) every edge with a contrast is certain.
-// NFA: those edges of frames of pure noise that the detector finds at all are the ones whose noise
-// looks like an edge, so z alone flatters them. What speaks for an edge is z + 1.6 min(score, 0.5):
-// the frame as it came, and the denoised one as far as it can be trusted. On edges in noise that
-// was measured to be a normal variable of mean 1.3 and deviation 1.3 (docs/tuning.md), and there
-// are about as many of them as 55000 px go into the frame. NFA = that number * P(more than this).
-void measure_edges(ImageView<const std::uint16_t> frame, double sigma_counts,
-                   ImageView<const std::int32_t> direction, const SignificanceOptions& options,
-                   EdgeSet& edges);
+void measure_contrast(ImageView<const std::uint16_t> frame, double sigma_counts, EdgeSet& edges);
 
 // Normals from the shape alone, for edges that came without a frame: smoothed as above, to the
 // right of the walking direction as seen on the picture.

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "thermedge/option_list.hpp"
 #include "thermedge/result.hpp"
 #include "thermedge/stages/contours.hpp"
 
@@ -17,7 +18,20 @@ struct CornerOptions {
   double max_angle_deg = 150;    // wider angles between the two arms are no corners, 90..180
   double end_distance_px = 5;    // a corner no farther than this from an end of its open contour,
                                  // along it, is left out: the end stands for it, px
+
+  // Fails with one line that names the option: out of its range, or at odds with another one.
+  [[nodiscard]] Status check() const;
 };
+
+template <OptionsOf<CornerOptions> O, class V>
+void visit_options(O& o, V&& v) {
+  v("sigma_px", o.sigma_px, Bounds{0.5, 10}, "smoothing of the contour before curvature, px");
+  v("curvature_ratio", o.curvature_ratio, Bounds{1, 100},
+    "a corner is sharper than this many times the mean of its arms");
+  v("max_angle_deg", o.max_angle_deg, Bounds{90, 180}, "wider angles are no corners, degrees");
+  v("end_distance_px", o.end_distance_px, Bounds{0, 1000},
+    "no farther than this from an end of its contour, the end stands for a corner, px");
+}
 
 // Chosen on drawn squares, bends, ellipses and rounded rectangles at all angles and on the squares
 // of a calibration board (docs/tuning.md).

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "thermedge/option_list.hpp"
 #include "thermedge/result.hpp"
 #include "thermedge/stages/contours.hpp"
 #include "thermedge/stages/corners.hpp"
@@ -20,7 +21,21 @@ struct PaperCornerOptions {
   bool end_points = true;        // the ends of open curves are corners too ...
   double end_distance_px = 5;    // ... where farther than this from every other corner, px; as
                                  // near, two corners at the seam of a linked loop are one
+
+  // Fails with one line that names the option: out of its range, or at odds with another one.
+  [[nodiscard]] Status check() const;
 };
+
+template <OptionsOf<PaperCornerOptions> O, class V>
+void visit_options(O& o, V&& v) {
+  v("sigma_px", o.sigma_px, Bounds{0.5, 10}, "smoothing of the curve before curvature, px");
+  v("curvature_ratio", o.curvature_ratio, Bounds{1, 100},
+    "a corner is sharper than this many times the mean of its region");
+  v("max_angle_deg", o.max_angle_deg, Bounds{90, 180}, "wider angles are no corners, degrees");
+  v("end_points", o.end_points, Bounds{0, 1}, "ends of open curves are corners");
+  v("end_distance_px", o.end_distance_px, Bounds{0, 1000},
+    "... where farther than this from every other corner, px");
+}
 
 // The corner finder that the paper used, to the letter: smoothing over 12 samples to each side
 // (sigma 3) with zero-padded margins, central differences, K = ceil(100 K) / 100, adaptive

@@ -1,20 +1,30 @@
 // Denoisers for single frames: Gaussian, non-local means, BM3D.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 
 #include "thermedge/image.hpp"
+#include "thermedge/option_list.hpp"
 #include "thermedge/parallel_runner.hpp"
 #include "thermedge/result.hpp"
 
 namespace thermedge {
 
 enum class DenoiseMethod { kNone, kGaussian, kNlm, kBm3d };
+inline constexpr std::array kDenoiseMethods = {
+    EnumName{DenoiseMethod::kNone, "none"}, EnumName{DenoiseMethod::kGaussian, "gaussian"},
+    EnumName{DenoiseMethod::kNlm, "nlm"}, EnumName{DenoiseMethod::kBm3d, "bm3d"}};
 
 struct GaussianOptions {
   double sigma_px = 0;  // 0: the 5x5 kernel of eq. 5 (sum 159); else a Gaussian, 0.3..20 px
 };
+
+template <OptionsOf<GaussianOptions> O, class V>
+void visit_options(O& o, V&& v) {
+  v("sigma_px", o.sigma_px, Bounds{0, 20}, "standard deviation, px (0: the 5x5 kernel of eq. 5)");
+}
 
 // Buades, Coll, Morel 2005; figures of the paper's author: patch 5, search 7, h 0.15 of the range.
 // The outer half of the search disc is sampled on every other row and column: a third of the time,
@@ -25,8 +35,18 @@ struct NlmOptions {
   double h_over_sigma = 0.9;  // filter strength in units of the noise, 0.1..5
 };
 
+template <OptionsOf<NlmOptions> O, class V>
+void visit_options(O& o, V&& v) {
+  v("patch_px", o.patch_px, Bounds{1, 15}, "side of the compared patches, odd, px");
+  v("search_px", o.search_px, Bounds{1, 41}, "diameter of the search disc, odd, px");
+  v("h_over_sigma", o.h_over_sigma, Bounds{0.1, 5}, "filter strength in units of the noise");
+}
+
 // How much time BM3D may take; docs/benchmarks.md has what each gives.
 enum class Bm3dProfile { kQuality, kBalanced, kFast };
+inline constexpr std::array kBm3dProfiles = {EnumName{Bm3dProfile::kQuality, "quality"},
+                                             EnumName{Bm3dProfile::kBalanced, "balanced"},
+                                             EnumName{Bm3dProfile::kFast, "fast"}};
 
 // Dabov et al. 2007; the roles of the parameters as in Lebrun's analysis (IPOL 2012).
 struct Bm3dOptions {
@@ -34,15 +54,35 @@ struct Bm3dOptions {
   double lambda = 2.6;       // hard threshold in units of sigma, 0.5..10
   double kaiser_beta = 2.0;  // window of the aggregation, 0..10
   bool wiener = true;        // run stage 2 (costs as much as stage 1, gives 0.3 to 0.6 dB)
+  // Whether a block displaced by one pixel may join a group: keeps 0.05 dB more detail, and ripple
+  // that looks like edges.
+  bool adjacent_blocks = true;
 };
 
-// A bilateral filter behind the method, far weaker than the noise: it evens out the bilateral that
+template <OptionsOf<Bm3dOptions> O, class V>
+void visit_options(O& o, V&& v) {
+  v("profile", o.profile, kBm3dProfiles, "quality, balanced or fast");
+  v("lambda", o.lambda, Bounds{0.5, 10}, "hard threshold in units of the noise");
+  v("kaiser_beta", o.kaiser_beta, Bounds{0, 10}, "shape of the aggregation window");
+  v("wiener", o.wiener, Bounds{0, 1}, "run the second stage");
+  v("adjacent_blocks", o.adjacent_blocks, Bounds{0, 1},
+    "blocks displaced by one pixel may join a group: more detail, and more ripple");
+}
+
+// A bilateral filter behind the method, far weaker than the noise: it evens out the ripple that
 // block matching leaves in flat areas, and nothing else. Rows first, then columns (Pham & van Vliet
 // 2005).
 struct BilateralOptions {
   double range_sigmas = 0;  // differences evened out, in units of the noise; 0: off
   double space_px = 6;      // standard deviation of the weights over distance, 1..10
 };
+
+template <OptionsOf<BilateralOptions> O, class V>
+void visit_options(O& o, V&& v) {
+  v("range_sigmas", o.range_sigmas, Bounds{0, 10},
+    "bilateral filter behind the method: range, in units of the noise (0: off)");
+  v("space_px", o.space_px, Bounds{1, 10}, "... and its reach, sigma, px");
+}
 
 struct DenoiseOptions {
   DenoiseMethod method = DenoiseMethod::kBm3d;
@@ -54,7 +94,22 @@ struct DenoiseOptions {
   NlmOptions nlm;
   Bm3dOptions bm3d;
   BilateralOptions bilateral;
+
+  // Fails with one line that names the option: out of its range, or at odds with another one.
+  [[nodiscard]] Status check() const;
 };
+
+template <OptionsOf<DenoiseOptions> O, class V>
+void visit_options(O& o, V&& v) {
+  v("method", o.method, kDenoiseMethods, "none, gaussian, nlm or bm3d");
+  v("sigma_counts", o.sigma_counts, Bounds{0, 65535}, "noise, counts (0: measured on each frame)");
+  v("sigma_scale", o.sigma_scale, Bounds{0.1, 10}, "nlm and bm3d are told so many times the noise");
+  v("detrend", o.detrend, Bounds{0, 1}, "take the smooth background off while denoising");
+  v.group("gaussian", o.gaussian);
+  v.group("nlm", o.nlm);
+  v.group("bm3d", o.bm3d);
+  v.group("bilateral", o.bilateral);
+}
 
 // To the nearest whole counts, within 0..65535. `out` has the size of `in`. Thread-safe.
 void round_to_counts(ImageView<const float> in, ImageView<std::uint16_t> out);

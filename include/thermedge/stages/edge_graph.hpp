@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "thermedge/image.hpp"
+#include "thermedge/option_list.hpp"
 #include "thermedge/result.hpp"
 #include "thermedge/stages/contours.hpp"
 #include "thermedge/stages/linking.hpp"
@@ -18,7 +19,19 @@ struct GraphOptions {
   double max_turn_deg = 52;       // sharper turns at a junction are ends, 0..180
   double closed_gap_px = 3;       // a curve whose ends are nearer than this is closed ...
   double closed_length_gaps = 4;  // ... where it is so many gaps long
+
+  // Fails with one line that names the option: out of its range, or at odds with another one.
+  [[nodiscard]] Status check() const;
 };
+
+template <OptionsOf<GraphOptions> O, class V>
+void visit_options(O& o, V&& v) {
+  v("min_length_px", o.min_length_px, Bounds{1, 1e9}, "shortest curve, points");
+  v("max_turn_deg", o.max_turn_deg, Bounds{0, 180},
+    "sharper turns at a junction are ends, degrees");
+  v("closed_gap_px", o.closed_gap_px, Bounds{0, 100}, "ends nearer than this close a curve, px");
+  v("closed_length_gaps", o.closed_length_gaps, Bounds{0, 1000}, "... that is so many gaps long");
+}
 
 // Thins the edge map, the weakest pixels first, so that the ridge remains; splits it at its
 // junctions into segments; joins at each junction the two that go on most smoothly, and of the

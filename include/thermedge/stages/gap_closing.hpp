@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "thermedge/image.hpp"
+#include "thermedge/option_list.hpp"
 #include "thermedge/result.hpp"
 #include "thermedge/stages/contour_chains.hpp"
 #include "thermedge/stages/contours.hpp"
@@ -19,7 +20,18 @@ struct GapClosingOptions {
   double max_turn_deg = 45;  // sharpest turn into a bridge and out of it, 0..90
   double min_contrast_ratio =
       0.1;  // contrast across a bridge, of that across the curve's end, 0..1
+
+  // Fails with one line that names the option: out of its range, or at odds with another one.
+  [[nodiscard]] Status check() const;
 };
+
+template <OptionsOf<GapClosingOptions> O, class V>
+void visit_options(O& o, V&& v) {
+  v("gap_px", o.gap_px, Bounds{0, 32}, "curves are carried on over gaps up to this, px (0: none)");
+  v("max_turn_deg", o.max_turn_deg, Bounds{0, 90}, "sharpest turn into a bridge, degrees");
+  v("min_contrast_ratio", o.min_contrast_ratio, Bounds{0, 1},
+    "contrast across a bridge, as a share of that across the end before it");
+}
 
 // Where an edge meets a stronger one, the ridge of its gradient ends some pixels before, and a weak
 // stretch makes a gap. From each free end, the shortest, straightest bridge to another curve, to an

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "thermedge/option_list.hpp"
 #include "thermedge/result.hpp"
 #include "thermedge/stages/contour_chains.hpp"
 #include "thermedge/stages/contours.hpp"
@@ -13,7 +14,15 @@ namespace thermedge {
 
 struct LinkingOptions {
   double gap_px = 3;  // GAP_LINK: ends nearer than this are linked, 0..32 px; 0 turns linking off
+
+  // Fails with one line that names the option: out of its range, or at odds with another one.
+  [[nodiscard]] Status check() const;
 };
+
+template <OptionsOf<LinkingOptions> O, class V>
+void visit_options(O& o, V&& v) {
+  v("gap_px", o.gap_px, Bounds{0, 32}, "ends nearer than this are linked, px (0: no linking)");
+}
 
 enum class LinkType {
   kEndToEnd = 1,     // two curves became one

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "thermedge/image.hpp"
+#include "thermedge/option_list.hpp"
 #include "thermedge/parallel_runner.hpp"
 #include "thermedge/result.hpp"
 
@@ -20,7 +21,26 @@ struct OrientedFilterOptions {
   double noise_floor = 0.08;  // least noise assumed, of the frame's range (p99.9 - p0.1), 0..0.1
   double fine_px = 0.8;       // standard deviation of the fine derivative, 0.5..2; 0: none
   double fine_above = 1;      // the response of the fine one from which it decides, > 0
+
+  // Fails with one line that names the option: out of its range, or at odds with another one.
+  [[nodiscard]] Status check() const;
 };
+
+template <OptionsOf<OrientedFilterOptions> O, class V>
+void visit_options(O& o, V&& v) {
+  v("across_px", o.across_px, Bounds{0.5, 2}, "width of the kernels across the edge, sigma, px");
+  v("clean_across_px", o.clean_across_px, Bounds{0.5, 2},
+    "the same where there is next to no noise, px");
+  v("clean_along_px", o.clean_along_px, Bounds{0.5, 4}, "and along it, px");
+  v("along_px", o.along_px, Bounds{0.5, 4}, "their length along it, sigma, px");
+  v("low", o.low, Bounds{1e-6, 1000}, "hysteresis, in units of the noise: edges go on above this");
+  v("high", o.high, Bounds{1e-6, 1000}, "... and hold a pixel above this");
+  v("noise_floor", o.noise_floor, Bounds{0, 0.1},
+    "least noise assumed, as a share of the frame's range; half of it is a clean frame");
+  v("fine_px", o.fine_px, Bounds{0, 2}, "width of the fine derivative, sigma, px (0: none)");
+  v("fine_above", o.fine_above, Bounds{1e-6, 1000},
+    "its response, in noise, from which it decides");
+}
 
 // Standard deviations.
 struct KernelSize {

@@ -4,33 +4,62 @@
 #include <cstdint>
 #include <vector>
 
+#include "thermedge/frame.hpp"
 #include "thermedge/image.hpp"
 #include "thermedge/parallel_runner.hpp"
 #include "thermedge/stages/bad_pixels.hpp"
+#include "thermedge/stages/noise.hpp"
 #include "thermedge/stages/stripes.hpp"
 
 namespace thermedge {
 
-// Replaces dead pixels, then removes stripes, as the options say. One object per thread; allocates
-// on the first frame of a size only.
+// What was found about a frame on the way to its corrected counts.
+struct Corrections {
+  NoiseEstimate noise;
+  std::vector<BadPixel> bad_pixels;  // that were replaced
+  StripeOffsets stripes;             // that were removed; empty where they were left alone
+  // count = (value - offset) * counts_per_unit, of a float frame; 1 and 0 of others.
+  double counts_per_unit = 1;
+  double offset = 0;
+};
+
+// Frame -> corrected counts: float values become counts, pixels that are no measurement take the
+// value of a neighbour, noise is measured, bad pixels are replaced, stripes removed.
+//
+// Float frames whose pixels are whole numbers from 0 to 65535 are counts already. In others the
+// 0.1st to 99.9th percentile is spread over 8192 to 16384 counts by a power of two, with room for
+// as much again on both sides; what lies beyond is clamped.
+//
+// The one front end of detector, `thermedge denoise`, sheets and benchmarks. One object per thread;
+// allocates on the first frame of a size only. The same result for every ParallelRunner and SIMD
+// target.
 class Preprocessor {
  public:
-  explicit Preprocessor(const BadPixelOptions& options) : options_(options) {}
+  Preprocessor(const BadPixelOptions& bad_pixels, const StripeOptions& stripes)
+      : bad_pixel_options_(bad_pixels), stripe_options_(stripes) {}
 
-  // The corrected frame, valid until the next run. `sigma_counts` as NoiseEstimator measured it.
-  ImageView<const std::uint16_t> run(ImageView<const std::uint16_t> frame, double sigma_counts,
-                                     ParallelRunner& runner);
+  // The corrected counts, valid until the next run. `frame` is not empty.
+  ImageView<const std::uint16_t> run(const Frame& frame, ParallelRunner& runner,
+                                     Corrections& corrections);
 
-  // Of the last frame; without stripes, or where they are left alone, the offsets are empty.
-  [[nodiscard]] const std::vector<BadPixel>& bad_pixels() const { return bad_pixels_; }
-  [[nodiscard]] const StripeOffsets& stripes() const { return stripes_; }
+  // Nonzero where the last frame was a measurement; empty where it was everywhere.
+  [[nodiscard]] ImageView<const std::uint8_t> valid() const { return valid_view_; }
 
  private:
-  BadPixelOptions options_;
-  StripeFinder finder_;
+  void load(const Frame& frame, Corrections& corrections);
+  void load_values(ImageView<const float> values, Corrections& corrections);
+  void choose_scale(ImageView<const float> values, Corrections& corrections);
+  void note_validity(const Frame& frame);
+  void fill_invalid();
+
+  BadPixelOptions bad_pixel_options_;
+  StripeOptions stripe_options_;
+  NoiseEstimator noise_estimator_;
+  StripeFinder stripe_finder_;
   Image<std::uint16_t> corrected_;
-  std::vector<BadPixel> bad_pixels_;
-  StripeOffsets stripes_;
+  Image<std::uint8_t> valid_;
+  ImageView<const std::uint8_t> valid_view_;
+  std::vector<float> sample_;
 };
 
 }  // namespace thermedge

@@ -8,6 +8,7 @@
 
 #include "thermedge/edge_set.hpp"
 #include "thermedge/image.hpp"
+#include "thermedge/option_list.hpp"
 #include "thermedge/result.hpp"
 #include "thermedge/stages/contours.hpp"
 #include "thermedge/stages/corners.hpp"
@@ -17,7 +18,15 @@ namespace thermedge {
 
 struct ScoringOptions {
   double loop_line_ratio = 2.0;  // Phi of a loop (a line has 1), > 0 (the text names no value)
+
+  // Fails with one line that names the option: out of its range, or at odds with another one.
+  [[nodiscard]] Status check() const;
 };
+
+template <OptionsOf<ScoringOptions> O, class V>
+void visit_options(O& o, V&& v) {
+  v("loop_line_ratio", o.loop_line_ratio, Bounds{1e-6, 1e6}, "Phi of a loop (a line has 1)");
+}
 
 // Residual sum of squares of the least-squares cubic y = a x^3 + b x^2 + c x + d through points
 // (eqs. 14-15), px^2; of the minimum-norm solution where fewer than four abscissae differ. What is
@@ -46,12 +55,12 @@ struct EdgeScoreTerms {
 // edge with more points, then the earlier contour. The id of an edge is its rank. Everything but
 // the measured fields (normals, magnitude, contrast, z, NFA; measure.hpp) and what is kept
 // (selection.hpp) is set.
-// The score is ES, or, given the suppressed_response of edge pixels in units of the noise, log(mean
-// suppressed_response) + 0.25 log N: larger is better then. Contrast counts more than length, and
-// smoothness not at all: ES prefers edges along the axis of the abscissae, and short ones. Parts to
-// be fitted run from corner to corner; the first and the last point of a curve, closed or not,
-// always count as corners here (P1 = C1, PN = CM), so that M >= 2. Paper: section 4, Algorithm 6.
-// One object per thread; allocates on the first frame of a size only.
+// The score is -ES, or, given the suppressed_response of edge pixels in units of the noise,
+// log(mean suppressed_response) + 0.25 log N: larger is better then. Contrast counts more than
+// length, and smoothness not at all: ES prefers edges along the axis of the abscissae, and short
+// ones. Parts to be fitted run from corner to corner; the first and the last point of a curve,
+// closed or not, always count as corners here (P1 = C1, PN = CM), so that M >= 2. Paper: section 4,
+// Algorithm 6. One object per thread; allocates on the first frame of a size only.
 class Scorer {
  public:
   explicit Scorer(const ScoringOptions& options) : options_(options) {}
@@ -65,7 +74,7 @@ class Scorer {
 
  private:
   struct Ranked {
-    double badness;  // ranked by this: ES or less the score
+    double score;  // larger is better
     double es;
     std::uint32_t points;
     std::uint32_t contour;

@@ -6,6 +6,7 @@
 
 #include "thermedge/edge_set.hpp"
 #include "thermedge/image.hpp"
+#include "thermedge/option_list.hpp"
 #include "thermedge/result.hpp"
 
 namespace thermedge {
@@ -15,7 +16,20 @@ struct SelectionOptions {
   int max_edgels = 0;           // most edgels in the kept edges together; 0: any number
   double min_score = -1e9;      // edges with a lower score are too weak; not for ES, which falls
   double max_false_alarms = 0;  // edges with a larger number of false alarms go; 0: no such test
+
+  // Fails with one line that names the option: out of its range, or at odds with another one.
+  [[nodiscard]] Status check() const;
 };
+
+template <OptionsOf<SelectionOptions> O, class V>
+void visit_options(O& o, V&& v) {
+  v("keep_edges", o.keep_edges, Bounds{0, 1e9}, "ET: the best so many edges are kept (0: all)");
+  v("max_edgels", o.max_edgels, Bounds{0, 1e9}, "most edgels in the kept edges (0: any number)");
+  v("min_score", o.min_score, Bounds{-1e9, 1e9},
+    "oriented: edges with a lower score are dropped as weak");
+  v("max_false_alarms", o.max_false_alarms, Bounds{0, 1e9},
+    "false edges expected in a frame of noise; edges above it are dropped (0: no test)");
+}
 
 // Gives each edge its status: too weak, not significant, beyond a budget (the kept edges are the
 // longest row of best ones within both) or kept. Those that passed the tests come first, each part

@@ -6,9 +6,23 @@
 #include <vector>
 
 #include "thermedge/image.hpp"
+#include "thermedge/option_list.hpp"
 #include "thermedge/parallel_runner.hpp"
+#include "thermedge/result.hpp"
 
 namespace thermedge {
+
+struct StripeOptions {
+  bool remove = false;  // remove the fixed offsets of columns and rows
+
+  // Fails with one line that names the option: out of its range, or at odds with another one.
+  [[nodiscard]] Status check() const;
+};
+
+template <OptionsOf<StripeOptions> O, class V>
+void visit_options(O& o, V&& v) {
+  v("remove", o.remove, Bounds{0, 1}, "remove the fixed offsets of columns and rows");
+}
 
 // In counts; empty where the frame shows no stripes, or is too small to tell.
 struct StripeOffsets {

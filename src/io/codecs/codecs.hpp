@@ -27,10 +27,10 @@ struct EncodedFile {
 
 // Decoders check the size against the limits before they allocate and fill `counts` and `bits` of
 // the frame. A file that ends early, or whose checksums do not match, is an error.
-[[nodiscard]] Status decode_png(const EncodedFile& file, Frame& frame);
-[[nodiscard]] Status decode_pgm(const EncodedFile& file, Frame& frame);
-[[nodiscard]] Status decode_tiff(const EncodedFile& file, std::size_t page, Frame& frame);
-[[nodiscard]] Status decode_npy(const EncodedFile& file, std::size_t page, Frame& frame);
+[[nodiscard]] Status decode_png(const EncodedFile& file, SourceFrame& frame);
+[[nodiscard]] Status decode_pgm(const EncodedFile& file, SourceFrame& frame);
+[[nodiscard]] Status decode_tiff(const EncodedFile& file, std::size_t page, SourceFrame& frame);
+[[nodiscard]] Status decode_npy(const EncodedFile& file, std::size_t page, SourceFrame& frame);
 [[nodiscard]] Result<std::size_t> count_tiff_pages(const EncodedFile& file);
 [[nodiscard]] Result<std::size_t> count_npy_pages(const EncodedFile& file);
 
@@ -73,7 +73,7 @@ struct Samples {
 enum class ByteOrder { kLittle, kBig };
 
 // Packed samples of 8 or 16 bits to and from the byte order of a file.
-void unpack_samples(Bytes packed, int bits, ByteOrder order, Frame& frame);
+void unpack_samples(Bytes packed, int bits, ByteOrder order, SourceFrame& frame);
 void append_samples(const Samples& samples, ByteOrder order, std::string& out);
 
 }  // namespace thermedge::io

@@ -11,7 +11,7 @@
 namespace thermedge::io {
 
 Status decode_picture(std::span<const std::byte> bytes, const std::string& name,
-                      const Limits& limits, std::size_t page, Frame& frame) {
+                      const Limits& limits, std::size_t page, SourceFrame& frame) {
   return catch_bad_alloc(name, [&]() -> Status {
     const EncodedFile file{bytes, name, limits};
     switch (format_of(bytes)) {
@@ -49,10 +49,10 @@ Result<std::size_t> count_pages(std::span<const std::byte> bytes, const std::str
   });
 }
 
-Result<Frame> read_picture(const std::string& path, const Limits& limits) {
+Result<SourceFrame> read_picture(const std::string& path, const Limits& limits) {
   return catch_bad_alloc(path, [&] {
     return read_file(path, limits).and_then([&](const std::vector<std::byte>& bytes) {
-      Frame frame;
+      SourceFrame frame;
       frame.source = path;
       frame.stem = stem_of(path);
       return decode_picture(bytes, path, limits, 0, frame).map([&] { return std::move(frame); });
@@ -95,7 +95,7 @@ tl::unexpected<Error> no_such_page(const EncodedFile& file, std::size_t page) {
                  file.name + ": has no page " + std::to_string(page) + " (the first is 0)");
 }
 
-void unpack_samples(Bytes packed, int bits, ByteOrder order, Frame& frame) {
+void unpack_samples(Bytes packed, int bits, ByteOrder order, SourceFrame& frame) {
   const std::byte* sample = packed.data();
   for (int y = 0; y < frame.counts.height(); ++y) {
     std::uint16_t* row = frame.counts.row(y);

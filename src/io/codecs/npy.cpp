@@ -214,7 +214,7 @@ Result<Array> parse_npy(const EncodedFile& file) {
 }
 
 // Column-major: the first index runs fastest.
-void unpack_fortran(const Array& array, std::size_t page, Frame& frame) {
+void unpack_fortran(const Array& array, std::size_t page, SourceFrame& frame) {
   const bool wide = array.bits == 16;
   const bool big = array.byte_order == ByteOrder::kBig;
   for (std::size_t y = 0; y < array.height; ++y) {
@@ -234,7 +234,7 @@ Result<std::size_t> count_npy_pages(const EncodedFile& file) {
   return parse_npy(file).map([](const Array& array) { return array.pages; });
 }
 
-Status decode_npy(const EncodedFile& file, std::size_t page, Frame& frame) {
+Status decode_npy(const EncodedFile& file, std::size_t page, SourceFrame& frame) {
   return parse_npy(file).and_then([&](const Array& array) -> Status {
     if (page >= array.pages) {
       return no_such_page(file, page);

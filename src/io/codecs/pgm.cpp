@@ -72,7 +72,7 @@ Status read_text_pixels(NumberReader& numbers, std::uint32_t largest, const Enco
 
 }  // namespace
 
-Status decode_pgm(const EncodedFile& file, Frame& frame) {
+Status decode_pgm(const EncodedFile& file, SourceFrame& frame) {
   NumberReader numbers(file.bytes);
   const auto width = numbers.next();
   const auto height = numbers.next();

@@ -112,7 +112,7 @@ bool take_grey(const std::vector<std::byte>& pixels, const Layout& layout,
 
 }  // namespace
 
-Status decode_png(const EncodedFile& file, Frame& frame) {
+Status decode_png(const EncodedFile& file, SourceFrame& frame) {
   const Context png = make_context(0);
   spng_ihdr header{};
   Bytes rest = file.bytes;

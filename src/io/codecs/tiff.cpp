@@ -127,7 +127,7 @@ bool read_tiles(TIFF* tiff, const Header& header, const Limits& limits,
   return true;
 }
 
-Status decode_directory(const EncodedFile& file, std::uint64_t offset, Frame& frame) {
+Status decode_directory(const EncodedFile& file, std::uint64_t offset, SourceFrame& frame) {
   TiffMemory memory;
   memory.input = file.bytes;
   const TiffFile tiff = open_tiff(memory, "rh", file.limits.max_bytes);
@@ -167,7 +167,7 @@ Result<std::size_t> count_tiff_pages(const EncodedFile& file) {
   }
 }
 
-Status decode_tiff(const EncodedFile& file, std::size_t page, Frame& frame) {
+Status decode_tiff(const EncodedFile& file, std::size_t page, SourceFrame& frame) {
   TiffPageChain chain(file.bytes);
   for (std::size_t before = 0;; ++before) {
     switch (chain.next()) {

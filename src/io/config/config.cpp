@@ -92,12 +92,16 @@ class TableReader {
     }
   }
 
+  // A key that is not in the list.
+  void tick_off(std::string_view name) { taken_.push_back(name); }
+
   // The first fault: a bad value, else a key that no option has.
   Status finish() {
     for (const auto& [key, node] : table_) {
       if (std::find(taken_.begin(), taken_.end(), key.str()) == taken_.end()) {
         keep(failure(ErrorCode::kInvalidArgument,
-                     "unknown option " + prefix_ + std::string(key.str())),
+                     "unknown option " + prefix_ + std::string(key.str()),
+                     prefix_ + std::string(key.str())),
              &node);
       }
     }
@@ -183,7 +187,8 @@ class SettingApplier {
       message += "; did you mean " + similar_ + "?";
     }
     return failure(ErrorCode::kInvalidArgument,
-                   message + (similar_.empty() ? "; --dump-config lists all options" : ""));
+                   message + (similar_.empty() ? "; --dump-config lists all options" : ""),
+                   std::string(key_));
   }
 
  private:
@@ -271,22 +276,96 @@ class Dumper {
   std::string text_;
 };
 
+Result<std::string> read_text(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  if (!file || !(text << file.rdbuf())) {
+    return failure(ErrorCode::kIo, path + ": cannot be read as a configuration file");
+  }
+  return text.str();
+}
+
+template <class Options>
+Status apply_to(std::string_view setting, Options& options) {
+  const auto equals = setting.find('=');
+  if (equals == std::string_view::npos) {
+    return failure(ErrorCode::kInvalidArgument,
+                   "'" + std::string(setting) + "' should read stage.option=value");
+  }
+  SettingApplier applier(setting.substr(0, equals), setting.substr(equals + 1));
+  Options changed = options;
+  visit_options(changed, applier);
+  return applier.finish().map([&] { options = changed; });
+}
+
+// Full names of all options.
+class NameCollector {
+ public:
+  template <class T, class Limits>
+  void operator()(std::string_view name, const T&, const Limits&, std::string_view) {
+    names.push_back(prefix_ + std::string(name));
+  }
+  template <class O>
+  void group(std::string_view name, const O& options) {
+    const std::string outer = prefix_;
+    prefix_ += std::string(name) + ".";
+    names.push_back(outer + std::string(name));
+    visit_options(options, *this);
+    prefix_ = outer;
+  }
+
+  std::vector<std::string> names;
+
+ private:
+  std::string prefix_;
+};
+
+// Where an unknown option belongs to another preset, says so instead.
+Error explain_unknown(Error error, const DetectorOptions& options) {
+  if (error.option.empty()) {
+    return error;
+  }
+  for (const auto& [preset, name] : kPresets) {
+    const DetectorOptions other(preset);
+    NameCollector known;
+    visit_options(other, known);
+    if (preset != options.preset() &&
+        std::find(known.names.begin(), known.names.end(), error.option) != known.names.end()) {
+      error.message = "unknown option '" + error.option + "': preset " +
+                      std::string(preset_name(options.preset())) + " does not use it, preset " +
+                      std::string(name) + " does";
+      return error;
+    }
+  }
+  return error;
+}
+
 }  // namespace
 
-Status parse_config(std::string_view toml, const std::string& name, DetectorOptions& options) {
+Status parse_config(std::string_view toml, const std::string& name, PresetChoice choice,
+                    DetectorOptions& options) {
   try {
     const toml::table table = toml::parse(toml, name);
-    Preset preset = options.preset;
+    DetectorOptions changed = options;
     if (const auto chosen = table["preset"].value<std::string_view>()) {
+      Preset preset = options.preset();
       if (Status status = assign_enum("preset", *chosen, kPresets, preset); !status) {
         return failure(status.error().code, name + ": " + status.error().message);
       }
+      if (choice == PresetChoice::kFixed && preset != options.preset()) {
+        return failure(ErrorCode::kInvalidArgument, name + ": preset = \"" + std::string(*chosen) +
+                                                        "\", but --preset " +
+                                                        std::string(preset_name(options.preset())) +
+                                                        " was given; leave one of them out");
+      }
+      changed = DetectorOptions(preset);
     }
-    DetectorOptions changed = table.contains("preset") ? preset_options(preset) : options;
     TableReader reader(table, "");
+    reader.tick_off("preset");
     visit_options(changed, reader);
     return reader.finish()
-        .and_then([&] { return check_options(changed); })
+        .map_error([&](Error error) { return explain_unknown(std::move(error), changed); })
+        .and_then([&] { return changed.check(); })
         .map([&] { options = changed; })
         .map_error([&](Error error) {
           error.message = name + ": " + error.message;
@@ -299,28 +378,56 @@ Status parse_config(std::string_view toml, const std::string& name, DetectorOpti
   }
 }
 
-Status load_config(const std::string& path, DetectorOptions& options) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  if (!file || !(text << file.rdbuf())) {
-    return failure(ErrorCode::kIo, path + ": cannot be read as a configuration file");
-  }
-  return parse_config(text.str(), path, options);
+Status load_config(const std::string& path, PresetChoice choice, DetectorOptions& options) {
+  return read_text(path).and_then(
+      [&](const std::string& text) { return parse_config(text, path, choice, options); });
+}
+
+Status load_config(const std::string& path, FrameDenoiserOptions& options) {
+  return read_text(path).and_then([&](const std::string& text) -> Status {
+    try {
+      const toml::table table = toml::parse(text, path);
+      FrameDenoiserOptions changed = options;
+      TableReader reader(table, "");
+      visit_options(changed, reader);
+      return reader.finish()
+          .and_then([&] { return changed.check(); })
+          .map([&] { options = changed; })
+          .map_error([&](Error error) {
+            error.message = path + ": " + error.message;
+            return error;
+          });
+    } catch (const toml::parse_error& error) {
+      return failure(ErrorCode::kBadData, path + ": line " +
+                                              std::to_string(error.source().begin.line) +
+                                              ": not TOML: " + std::string(error.description()));
+    }
+  });
 }
 
 Status apply_setting(std::string_view setting, DetectorOptions& options) {
-  const auto equals = setting.find('=');
-  if (equals == std::string_view::npos) {
-    return failure(ErrorCode::kInvalidArgument,
-                   "'" + std::string(setting) + "' should read stage.option=value");
+  if (setting.substr(0, setting.find('=')) == "preset") {
+    return failure(
+        ErrorCode::kInvalidArgument,
+        "preset is no single option; choose it with --preset or in the file of --config");
   }
-  SettingApplier applier(setting.substr(0, equals), setting.substr(equals + 1));
-  DetectorOptions changed = options;
-  visit_options(changed, applier);
-  return applier.finish().map([&] { options = changed; });
+  return apply_to(setting, options).map_error([&](Error error) {
+    return explain_unknown(std::move(error), options);
+  });
+}
+
+Status apply_setting(std::string_view setting, FrameDenoiserOptions& options) {
+  return apply_to(setting, options);
 }
 
 std::string dump_config(const DetectorOptions& options) {
+  Dumper dumper;
+  visit_options(options, dumper);
+  return "preset = \"" + std::string(preset_name(options.preset())) +
+         "\"  # where the other options start from\n" + dumper.take();
+}
+
+std::string dump_config(const FrameDenoiserOptions& options) {
   Dumper dumper;
   visit_options(options, dumper);
   return dumper.take();

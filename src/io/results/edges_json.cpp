@@ -21,7 +21,7 @@ Json to_json(const EdgeSet& set, const Edge& edge) {
   for (std::uint32_t i = edge.edgels.first; i < edge.edgels.first + edge.edgels.count; ++i) {
     points.push_back({rounded(set.edgels.x[i]), rounded(set.edgels.y[i])});
   }
-  return {{"id", edge.index},
+  return {{"index", edge.index},
           {"rank", edge.rank},
           {"score", exact(edge.score)},
           {"es", exact(edge.es)},
@@ -32,26 +32,25 @@ Json to_json(const EdgeSet& set, const Edge& edge) {
           {"contrast_counts", rounded(edge.contrast_counts)},
           {"corners", set.corners_of(edge)},
           {"connected", set.connections_of(edge)},
-          {"track", edge.track >= 0 ? Json(edge.track) : Json(nullptr)},
           {"points", std::move(points)}};
 }
 
-Json to_json(const StageTimes& ms) {
+Json to_json(const StageTimes& times) {
   Json json = Json::object();
-  for (const Stage& stage : kStages) {
-    json[std::string(stage.name)] = rounded(ms.*stage.ms);
+  for (const StageTime& time : times) {
+    json[std::string(time.stage)] = rounded(time.ms);
   }
-  json["total"] = rounded(ms.total());
+  json["total"] = rounded(total_ms(times));
   return json;
 }
 
-struct VerdictCounts {
+struct StatusCounts {
   std::size_t weak = 0, insignificant = 0, beyond_budget = 0;
 };
 
 // What was measured on the frame, and what was chosen by it.
 Json measured(const Detection& detection) {
-  const NoiseEstimate& noise = detection.noise;
+  const NoiseEstimate& noise = detection.corrections.noise;
   Json json = {{"sigma_counts", rounded(noise.sigma_counts)},
                {"column_sigma_counts", rounded(noise.column_sigma_counts)},
                {"row_sigma_counts", rounded(noise.row_sigma_counts)}};
@@ -64,8 +63,8 @@ Json measured(const Detection& detection) {
   return json;
 }
 
-VerdictCounts count_statuses(const EdgeSet& set) {
-  VerdictCounts counts;
+StatusCounts count_statuses(const EdgeSet& set) {
+  StatusCounts counts;
   for (const Edge& edge : set.edges) {
     counts.weak += edge.status == EdgeStatus::kWeak ? 1 : 0;
     counts.insignificant += edge.status == EdgeStatus::kInsignificant ? 1 : 0;
@@ -74,7 +73,7 @@ VerdictCounts count_statuses(const EdgeSet& set) {
   return counts;
 }
 
-Json to_json(const VerdictCounts& counts) {
+Json to_json(const StatusCounts& counts) {
   return {{"weak", counts.weak},
           {"insignificant", counts.insignificant},
           {"beyond_budget", counts.beyond_budget}};
@@ -82,7 +81,7 @@ Json to_json(const VerdictCounts& counts) {
 
 }  // namespace
 
-std::string edges_to_json(const Detection& detection, const ResultLabel& label) {
+std::string edges_to_json(const Detection& detection, const std::string& source) {
   const EdgeSet& set = detection.edges;
   Json edges = Json::array();
   for (const Edge& edge : set.kept_edges()) {
@@ -92,19 +91,22 @@ std::string edges_to_json(const Detection& detection, const ResultLabel& label) 
   for (const Junction& junction : set.junctions) {
     junctions.push_back({junction.at.x, junction.at.y});
   }
-  const Json document = {{"source", label.source},
+  const Json document = {{"source", source},
                          {"width", detection.width},
                          {"height", detection.height},
-                         {"preset", label.preset},
+                         {"preset", preset_name(detection.preset)},
                          {"sigma_counts", rounded(detection.sigma_counts)},
                          {"edges", std::move(edges)},
                          {"junctions", std::move(junctions)},
                          {"stats",
-                          {{"ms", to_json(detection.ms)},
+                          {{"ms", to_json(detection.times)},
                            {"measured", measured(detection)},
+                           {"false_alarm_model", detection.no_false_alarm_model.empty()
+                                                     ? std::string_view("measured")
+                                                     : detection.no_false_alarm_model},
                            {"edges_found", set.edges.size()},
                            {"edges_dropped", to_json(count_statuses(set))},
-                           {"bad_pixels", detection.bad_pixels.size()},
+                           {"bad_pixels", detection.corrections.bad_pixels.size()},
                            {"threshold_low", rounded(detection.threshold_low)},
                            {"threshold_high", rounded(detection.threshold_high)}}}};
   // A name that is not UTF-8 is shown with replacement characters rather than refused.

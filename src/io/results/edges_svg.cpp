@@ -65,17 +65,18 @@ void append_edge(SvgText& svg, const EdgeSet& set, const Edge& edge, Rgb colour)
 
 }  // namespace
 
-std::string edges_to_svg(const Detection& detection, const ResultLabel& label) {
+std::string edges_to_svg(const Detection& detection, const std::string& source) {
   const EdgeSet& set = detection.edges;
   SvgText svg;
   // Pixel centres lie at integers, so the frame begins half a pixel before 0.
   svg << "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"-0.5 -0.5 " << detection.width << " "
       << detection.height << "\" width=\"" << 2 * detection.width << "\" height=\""
       << 2 * detection.height << "\">\n<title>";
-  svg.escaped(label.source) << ", preset ";
-  svg.escaped(label.preset) << "</title>\n<rect x=\"-0.5\" y=\"-0.5\" width=\"100%\" "
-                               "height=\"100%\" fill=\"#181818\"/>\n"
-                            << "<g fill=\"none\" stroke-width=\"0.6\">\n";
+  svg.escaped(source) << ", preset ";
+  svg.escaped(preset_name(detection.preset))
+      << "</title>\n<rect x=\"-0.5\" y=\"-0.5\" width=\"100%\" "
+         "height=\"100%\" fill=\"#181818\"/>\n"
+      << "<g fill=\"none\" stroke-width=\"0.6\">\n";
   const double last = set.kept > 1 ? static_cast<double>(set.kept - 1) : 1.0;
   for (std::size_t i = set.kept; i-- > 0;) {
     append_edge(svg, set, set.edges[i], rank_colour(static_cast<double>(i) / last));

@@ -96,10 +96,11 @@ class Canvas {
   ImageView<Rgb> picture_;
 };
 
-void draw_background(const Detection& detection, ImageView<Rgb> picture) {
+void draw_background(const Detection& detection, ImageView<const std::uint16_t> counts,
+                     ImageView<Rgb> picture) {
   Image<std::uint8_t> view(detection.width, detection.height);
-  if (!detection.corrected.empty()) {
-    draw_view(detection.corrected, view);
+  if (!counts.empty()) {
+    draw_view(counts, view);
   } else {
     fill_pixels(view.view(), std::uint8_t{0});
   }
@@ -148,9 +149,10 @@ Rgb rank_colour(double share) {
   return plasma(1 - (1 - kLast) * std::clamp(share, 0.0, 1.0));
 }
 
-void draw_overlay(const Detection& detection, Image<Rgb>& overlay) {
+void draw_overlay(const Detection& detection, ImageView<const std::uint16_t> counts,
+                  Image<Rgb>& overlay) {
   overlay.resize(detection.width * kScale, detection.height * kScale);
-  draw_background(detection, overlay);
+  draw_background(detection, counts, overlay);
   Canvas canvas(overlay);
   const EdgeSet& set = detection.edges;
   for (std::size_t i = set.kept; i < set.edges.size(); ++i) {

@@ -1,4 +1,5 @@
 #include "thermedge/io/probe_file.hpp"
+#include "thermedge/options.hpp"
 
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -129,6 +130,9 @@ std::string suggested_toml(const RecordingReport& report) {
     return "# The detector's defaults suit this recording.\n";
   }
   std::string text;
+  if (report.preset != DetectorOptions{}.preset()) {
+    text = "preset = \"" + std::string(preset_name(report.preset)) + "\"\n";
+  }
   for (const SuggestedOption& option : report.suggested) {
     text += "# " + option.reason + "\n" + option.name + " = " + option.value + "\n";
   }

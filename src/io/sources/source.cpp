@@ -12,7 +12,7 @@ namespace thermedge::io {
 namespace {
 
 // Names the frame: by its file, and by its place there where the file holds several.
-void label(Frame& frame, const std::string& path, std::string stem, std::int64_t index,
+void label(SourceFrame& frame, const std::string& path, std::string stem, std::int64_t index,
            bool one_of_several) {
   frame.source = path;
   frame.stem = std::move(stem);
@@ -30,7 +30,7 @@ class PictureSource final : public FrameSource {
  public:
   PictureSource(std::string path, const Limits& limits) : path_(std::move(path)), limits_(limits) {}
 
-  Result<bool> next(Frame& frame) override {
+  Result<bool> next(SourceFrame& frame) override {
     if (page_ == pages_) {
       return false;
     }
@@ -79,7 +79,7 @@ class RawSource final : public FrameSource {
                 static_cast<std::size_t>(options.raw_height) *
                 static_cast<std::size_t>(bits_ / 8)) {}
 
-  Result<bool> next(Frame& frame) override {
+  Result<bool> next(SourceFrame& frame) override {
     if (ended_) {
       return false;
     }
@@ -161,7 +161,7 @@ class FileList final : public FrameSource {
   FileList(std::vector<std::string> paths, const SourceOptions& options)
       : paths_(std::move(paths)), options_(options) {}
 
-  Result<bool> next(Frame& frame) override {
+  Result<bool> next(SourceFrame& frame) override {
     while (current_ != nullptr || position_ < paths_.size()) {
       const std::string& path = paths_[current_ != nullptr ? position_ - 1 : position_];
       auto more = catch_bad_alloc(path, [&] { return next_of_current(frame); });
@@ -180,7 +180,7 @@ class FileList final : public FrameSource {
 
  private:
   // false: the file has no more frames and is closed.
-  Result<bool> next_of_current(Frame& frame) {
+  Result<bool> next_of_current(SourceFrame& frame) {
     if (current_ == nullptr) {
       auto opened = open_file(paths_[position_++], options_);
       if (!opened) {

@@ -1,0 +1,98 @@
+// `denoise`: frames with less noise.
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+
+#include "commands.hpp"
+#include "common.hpp"
+#include "picture_output.hpp"
+#include "thermedge/frame_denoiser.hpp"
+#include "thermedge/io/config.hpp"
+#include "thermedge/io/write.hpp"
+
+namespace thermedge::cli {
+namespace {
+
+// With the bits that the frame came with.
+Status write_counts(const std::string& path, ImageView<const std::uint16_t> counts, int bits) {
+  if (bits == 16) {
+    return io::write_picture(path, counts);
+  }
+  Image<std::uint8_t> levels(counts.width(), counts.height());
+  for (int y = 0; y < counts.height(); ++y) {
+    std::transform(counts.row(y), counts.row(y) + counts.width(), levels.row(y),
+                   [](std::uint16_t count) {
+                     return static_cast<std::uint8_t>(std::min<std::uint16_t>(count, 255));
+                   });
+  }
+  return io::write_picture(path, ImageView<const std::uint8_t>(levels.view()));
+}
+
+struct DenoiseCommand {
+  CommonOptions common;
+  ConfigOptions config;
+  std::optional<std::string> method;
+  std::string sigma = "auto";
+
+  [[nodiscard]] Status apply_to(FrameDenoiserOptions& options) const;
+  [[nodiscard]] int run() const;
+};
+
+Status DenoiseCommand::apply_to(FrameDenoiserOptions& options) const {
+  Status status = config.apply(options);
+  if (method) {
+    status =
+        status.and_then([&] { return io::apply_setting("denoise.method=" + *method, options); });
+  }
+  return status.and_then([&] { return parse_sigma(sigma); })
+      .map([&](double counts) {
+        options.denoise.sigma_counts = counts > 0 ? counts : options.denoise.sigma_counts;
+      })
+      .and_then([&] { return options.check(); });
+}
+
+int DenoiseCommand::run() const {
+  Console console = common.report();
+  FrameDenoiserOptions options;
+  if (const Status status = apply_to(options); !status) {
+    return console.fail(status.error());
+  }
+  if (config.dump) {
+    fmt::print("{}", io::dump_config(options));
+    return kGood;
+  }
+  const auto source = common.prepare();
+  if (!source) {
+    return console.fail(source.error());
+  }
+  PictureOutput output(common.output);
+  const auto runner = make_runner(common.threads);
+  FrameDenoiser denoiser(options);
+  return for_each_frame(common, *source, console, [&](const io::SourceFrame& frame) -> Status {
+    return denoiser.run(frame.frame(), *runner)
+        .and_then([&](ImageView<const std::uint16_t> counts) {
+          return output.path(frame.stem).and_then([&](const std::string& path) {
+            return write_counts(path, counts, frame.bits);
+          });
+        });
+  });
+}
+
+}  // namespace
+
+void add_denoise(CLI::App& program, int& exit_code) {
+  CLI::App& app = *program.add_subcommand(
+      "denoise", "frames with less noise, in counts; slower and finer than what detect does");
+  auto command = std::make_shared<DenoiseCommand>();
+  command->common.add_to(app);
+  command->config.add_to(app);
+  app.get_option("-o")->required();
+  app.add_option("--method", command->method, "denoiser (default bm3d)")
+      ->check(CLI::IsMember(names_of(kDenoiseMethods)));
+  app.add_option("--sigma", command->sigma, "noise: auto or counts")->capture_default_str();
+  app.callback([command, &exit_code] { exit_code = command->run(); });
+}
+
+}  // namespace thermedge::cli

@@ -1,0 +1,33 @@
+#include "edge_command.hpp"
+
+#include "result_writer.hpp"
+
+namespace thermedge::cli {
+
+void EdgeCommand::add_to(CLI::App& app) {
+  DetectorCommand::add_to(app);
+  app.add_option("--write", write,
+                 "for -o DIR: mask,strength,labels,json,svg,overlay,distance (default mask)");
+}
+
+int EdgeCommand::run_on_frames(const Step& step) const {
+  return run(
+      [&](const DetectorOptions& options, const io::SourceOptions& source, Console& console) {
+        auto writer = ResultWriter::create(common.output, write);
+        if (!writer) {
+          return console.fail(writer.error());
+        }
+        auto detector = Detector::create(options);
+        if (!detector) {
+          return console.fail(detector.error());
+        }
+        Detection detection;
+        return for_each_frame(common, source, console, [&](const io::SourceFrame& frame) {
+          return step(*detector, frame, detection).and_then([&] {
+            return writer->write(detection, frame.counts, frame.source, frame.stem);
+          });
+        });
+      });
+}
+
+}  // namespace thermedge::cli

@@ -1,0 +1,23 @@
+// What `detect` and `trace` have in common.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "detector_command.hpp"
+#include "thermedge/detector.hpp"
+
+namespace thermedge::cli {
+
+struct EdgeCommand : DetectorCommand {
+  std::string write;  // kinds of results
+
+  void add_to(CLI::App& app);
+
+  // Runs `step(detector, frame, detection)` on each frame and writes the result. Returns the exit
+  // code.
+  using Step = std::function<Status(Detector&, const io::SourceFrame&, Detection&)>;
+  [[nodiscard]] int run_on_frames(const Step& step) const;
+};
+
+}  // namespace thermedge::cli

@@ -1,0 +1,143 @@
+// `scale`: 16 bits to 8 bits.
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "commands.hpp"
+#include "common.hpp"
+#include "picture_output.hpp"
+#include "thermedge/io/write.hpp"
+#include "thermedge/radiometry/grey_scale.hpp"
+#include "thermedge/radiometry/stable_grey_scale.hpp"
+
+namespace thermedge::cli {
+namespace {
+
+struct ScaleCommand {
+  CommonOptions common;
+  std::optional<double> gain;
+  bool stable = false;
+  StableGreyScaleOptions view;
+
+  [[nodiscard]] int run() const;
+
+ private:
+  [[nodiscard]] Status write(const io::SourceFrame& frame, ImageView<std::uint8_t> levels,
+                             PictureOutput& output) const;
+  [[nodiscard]] int run_algorithm1(const io::SourceOptions& source, Console& report) const;
+  [[nodiscard]] int run_stable(const io::SourceOptions& source, Console& report) const;
+};
+
+Status ScaleCommand::write(const io::SourceFrame& frame, ImageView<std::uint8_t> levels,
+                           PictureOutput& output) const {
+  return output.path(frame.stem).and_then([&](const std::string& path) {
+    return io::write_picture(path, ImageView<const std::uint8_t>(levels));
+  });
+}
+
+int ScaleCommand::run_algorithm1(const io::SourceOptions& source, Console& report) const {
+  GreyScaleOptions options;
+  options.gain = gain.value_or(options.gain);
+  if (const Status status = options.check(); !status) {
+    return report.fail(status.error());
+  }
+  PictureOutput output(common.output);
+  Image<std::uint8_t> levels;
+  return for_each_frame(common, source, report, [&](const io::SourceFrame& frame) -> Status {
+    levels.resize(frame.counts.width(), frame.counts.height());
+    return scale_to_8bit(frame.counts, options, levels).and_then([&] {
+      return write(frame, levels, output);
+    });
+  });
+}
+
+std::string_view event_name(GreyScaleEvent event) {
+  switch (event) {
+    case GreyScaleEvent::kNone:
+      break;
+    case GreyScaleEvent::kStart:
+      return "start";
+    case GreyScaleEvent::kSceneCut:
+      return "scene_cut";
+  }
+  return "";
+}
+
+std::string state_line(const io::SourceFrame& frame, std::int64_t index,
+                       const GreyScaleState& state) {
+  const std::string_view event = event_name(state.event);
+  const nlohmann::ordered_json line = {
+      {"source", frame.source},
+      {"index", index},
+      {"gain", state.gain},
+      {"offset", state.offset},
+      {"clipped_low_share", state.clipped_low_share},
+      {"clipped_high_share", state.clipped_high_share},
+      {"event", event.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(event)}};
+  return line.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+// What the view did with each frame is written even where some frames were bad.
+int ScaleCommand::run_stable(const io::SourceOptions& source, Console& report) const {
+  StableGreyScaleOptions options = view;
+  options.gain = gain.value_or(options.gain);
+  if (const Status status = check_options(options); !status) {
+    return report.fail(status.error());
+  }
+  PictureOutput output(common.output);
+  StableGreyScale stable_grey_scale(options);
+  Image<std::uint8_t> levels;
+  std::string lines;
+  std::int64_t index = 0;
+  const int code =
+      for_each_frame(common, source, report, [&](const io::SourceFrame& frame) -> Status {
+        levels.resize(frame.counts.width(), frame.counts.height());
+        return stable_grey_scale.run(frame.counts, levels)
+            .and_then([&](const GreyScaleState& state) {
+              lines += state_line(frame, index++, state);
+              return write(frame, levels, output);
+            });
+      });
+  const Status status = io::write_file(output.beside("scale.jsonl"), lines);
+  return status ? code : report.fail(status.error());
+}
+
+int ScaleCommand::run() const {
+  Console report = common.report();
+  const auto source = common.prepare();
+  if (!source) {
+    return report.fail(source.error());
+  }
+  return stable ? run_stable(*source, report) : run_algorithm1(*source, report);
+}
+
+}  // namespace
+
+void add_scale(CLI::App& program, int& exit_code) {
+  CLI::App& app =
+      *program.add_subcommand("scale", "16 bit to 8 bit at constant degrees per grey level");
+  auto command = std::make_shared<ScaleCommand>();
+  command->common.add_to(app);
+  app.get_option("-o")->required();
+  app.add_option("--gain", command->gain,
+                 "grey levels per count (default 0.5; with --stable 0.2, and 0: from the noise)")
+      ->check(CLI::Range(0.0, 1000.0));
+  CLI::Option* stable = app.add_flag(
+      "--stable", command->stable,
+      "a view that does not flicker: its centre is held; gain, offset and events in scale.jsonl");
+  app.add_option("--dead-band", command->view.dead_band_levels,
+                 "levels that the median may move before the view follows")
+      ->check(CLI::Range(0.0, 127.0))
+      ->capture_default_str()
+      ->needs(stable);
+  app.add_option("--slew", command->view.slew_levels, "levels a frame that the view may move")
+      ->check(CLI::Range(0.0, 255.0))
+      ->capture_default_str()
+      ->needs(stable);
+  app.callback([command, &exit_code] { exit_code = command->run(); });
+}
+
+}  // namespace thermedge::cli

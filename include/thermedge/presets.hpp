@@ -1,0 +1,23 @@
+// Named sets of options. Their values stand in one table, src/pipeline/presets.cpp.
+#pragma once
+
+#include <array>
+#include <string_view>
+
+#include "thermedge/option_list.hpp"
+
+namespace thermedge {
+
+enum class Preset {
+  kRobust,  // the default: the best edges
+  kFast,    // robust's stages after a Gaussian and a bilateral filter instead of BM3D
+  kPaper,   // the paper to the letter
+};
+
+inline constexpr std::array kPresets = {EnumName{Preset::kRobust, "robust"},
+                                        EnumName{Preset::kFast, "fast"},
+                                        EnumName{Preset::kPaper, "paper"}};
+
+[[nodiscard]] std::string_view preset_name(Preset preset);
+
+}  // namespace thermedge

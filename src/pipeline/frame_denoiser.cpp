@@ -1,0 +1,40 @@
+#include "thermedge/frame_denoiser.hpp"
+
+#include <new>
+
+#include "try.hpp"
+
+namespace thermedge {
+
+Status FrameDenoiserOptions::check() const {
+  return bad_pixels.check().and_then([&] { return stripes.check(); }).and_then([&] {
+    return denoise.check();
+  });
+}
+
+FrameDenoiser::FrameDenoiser(const FrameDenoiserOptions& options)
+    : options_(options),
+      preprocessor_(options.bad_pixels, options.stripes),
+      denoiser_(options.denoise) {}
+
+Result<ImageView<const std::uint16_t>> FrameDenoiser::run(const Frame& frame,
+                                                          ParallelRunner& runner) {
+  THERMEDGE_TRY(options_.check());
+  if (frame.empty()) {
+    return failure(ErrorCode::kInvalidArgument, "frame: it has no pixels");
+  }
+  try {
+    working_.resize(frame.width(), frame.height());
+    counts_.resize(frame.width(), frame.height());
+    copy_pixels(preprocessor_.run(frame, runner, corrections_), working_.view());
+    const double told = options_.denoise.sigma_counts * corrections_.counts_per_unit;
+    const double sigma = told > 0 ? told : corrections_.noise.sigma_counts;
+    THERMEDGE_TRY(denoiser_.run_measured(working_, sigma, working_, runner));
+  } catch (const std::bad_alloc&) {
+    return failure(ErrorCode::kOutOfMemory, "frame: out of memory");
+  }
+  round_to_counts(working_, counts_);
+  return ImageView<const std::uint16_t>(counts_.view());
+}
+
+}  // namespace thermedge

@@ -1,0 +1,66 @@
+// The order of the stages, one class a kind of preset.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <stop_token>
+
+#include "thermedge/detection.hpp"
+#include "thermedge/frame.hpp"
+#include "thermedge/options.hpp"
+#include "thermedge/parallel_runner.hpp"
+#include "thermedge/result.hpp"
+
+namespace thermedge::detail {
+
+// What a pipeline is called with beside the frame.
+struct Call {
+  ParallelRunner& runner;
+  std::stop_token stop;
+  Intermediates* intermediates;  // null: not wanted
+};
+
+class Pipeline {
+ public:
+  Pipeline() = default;
+  Pipeline(const Pipeline&) = delete;
+  Pipeline& operator=(const Pipeline&) = delete;
+  virtual ~Pipeline() = default;
+
+  // `found` holds the frame's size, stamp, index and flags, and nothing else yet.
+  virtual Status detect(const Frame& frame, const Call& call, Detection& found) = 0;
+  virtual Status trace(ImageView<const std::uint8_t> edge_map, const Call& call,
+                       Detection& found) = 0;
+};
+
+// The one place that knows which preset is run by which pipeline.
+[[nodiscard]] std::unique_ptr<Pipeline> make_pipeline(const DetectorOptions& options);
+
+// Intermediate pictures.
+template <class T>
+void copy_image(ImageView<const T> from, Image<T>& to) {
+  to.resize(from.width(), from.height());
+  copy_pixels(from, to.view());
+}
+
+// Rounded to grey levels.
+void round_to_levels(ImageView<const float> in, Image<std::uint8_t>& levels);
+
+// Nonzero pixels become 255.
+void binarize(ImageView<const std::uint8_t> map, Image<std::uint8_t>& binary);
+
+// Takes edge pixels off that lie on pixels which are no measurement, or within 2 px of them.
+// `valid` empty: none does, and the map itself is returned; else the masked copy.
+[[nodiscard]] ImageView<const std::uint8_t> mask_invalid(ImageView<const std::uint8_t> edges,
+                                                         ImageView<const std::uint8_t> valid,
+                                                         Image<std::uint8_t>& masked);
+
+// An edge map alone tells no contrast.
+void forget_contrast(EdgeSet& edges);
+
+// What was measured in counts, in the unit of a float frame.
+void convert_to_frame_units(Detection& found);
+
+}  // namespace thermedge::detail
