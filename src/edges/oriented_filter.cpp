@@ -522,7 +522,9 @@ OrientedFilterBank::~OrientedFilterBank() = default;
 Result<OrientedFilterResult> OrientedFilterBank::run(ImageView<const float> in, double sigma_counts,
                                                      double noisiness, ParallelRunner& runner) {
   Impl& self = *impl_;
-  if (Status status = check_input(in, sigma_counts, noisiness); !status) {
+  if (Status status =
+          self.options.check().and_then([&] { return check_input(in, sigma_counts, noisiness); });
+      !status) {
     return tl::unexpected(status.error());
   }
   self.kernels = &self.all_kernels[static_cast<std::size_t>(std::lround(noisiness * kKernelSteps))];

@@ -184,7 +184,7 @@ Status Scorer::score_contours(const LinkedContours& linked, const CornerSet& cor
     }
     terms.loop_line_ratio = contour.closed ? options_.loop_line_ratio : 1;
     const double es = edge_score(terms);
-    order_.push_back({-es, es, contour.points.count, i});
+    order_.push_back({0 - es, es, contour.points.count, i});
   }
   return {};
 }

@@ -315,10 +315,10 @@ TEST(PaperCornerFinder, NamesTheOptionThatIsOutOfRange) {
   };
   PaperCornerOptions options;
   options.sigma_px = 0;
-  EXPECT_NE(error_of(options).find("paper_corners.sigma_px"), std::string::npos);
+  EXPECT_NE(error_of(options).find("corners.sigma_px"), std::string::npos);
   options = {};
   options.max_angle_deg = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_NE(error_of(options).find("paper_corners.max_angle_deg"), std::string::npos);
+  EXPECT_NE(error_of(options).find("corners.max_angle_deg"), std::string::npos);
   EXPECT_EQ(error_of({}), "");
 }
 

@@ -184,13 +184,13 @@ TEST(OrientedFilterBank, RefuseWhatTheyCannotDo) {
   EXPECT_NE(message(frame, std::nan(""), {}).find("noise"), std::string::npos);
   OrientedFilterOptions options;
   options.along_px = 1;
-  EXPECT_NE(message(frame, 1, options).find("oriented.along_px"), std::string::npos);
+  EXPECT_NE(message(frame, 1, options).find("oriented_filter.along_px"), std::string::npos);
   options = {};
   options.low = 2;
-  EXPECT_NE(message(frame, 1, options).find("oriented.high"), std::string::npos);
+  EXPECT_NE(message(frame, 1, options).find("oriented_filter.high"), std::string::npos);
   options = {};
   options.across_px = 5;
-  EXPECT_NE(message(frame, 1, options).find("oriented.a"), std::string::npos);
+  EXPECT_NE(message(frame, 1, options).find("oriented_filter.a"), std::string::npos);
   auto broken = frame.clone();
   broken(3, 4) = std::numeric_limits<float>::quiet_NaN();
   EXPECT_NE(message(broken, 1, {}).find("(3, 4)"), std::string::npos);

@@ -278,7 +278,7 @@ Image<std::uint16_t> small_desk() {
 class Stages : public testing::Test {
  protected:
   static DetectorOptions quick() {
-    DetectorOptions options;
+    DetectorOptions options(Preset::kPaper);
     options.denoise.method = DenoiseMethod::kNlm;
     options.paper()->contours.min_component_px = 10;
     options.threads = 1;

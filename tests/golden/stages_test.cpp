@@ -32,7 +32,7 @@ std::uint64_t noise_hash(const Detection& found) {
       .value();
 }
 
-std::uint64_t dead_pixels_hash(const Detection& found) {
+std::uint64_t bad_pixels_hash(const Detection& found) {
   Hash hash;
   for (const BadPixel& pixel : found.corrections.bad_pixels) {
     hash.add(pixel.x).add(pixel.y);
@@ -140,7 +140,7 @@ StageHashes hashes_of(ImageView<const std::uint16_t> counts, const Detection& fo
                       const Intermediates& steps) {
   return {{"frame", Hash().add_pixels(counts).value()},
           {"noise", noise_hash(found)},
-          {"dead pixels", dead_pixels_hash(found)},
+          {"bad pixels", bad_pixels_hash(found)},
           {"stripes", stripes_hash(found)},
           {"corrected", Hash().add_pixels(steps.corrected.view()).value()},
           {"levels", Hash().add_pixels(steps.levels.view()).value()},
@@ -187,39 +187,39 @@ void expect_hashes(const std::string& spec, const StageHashes& wanted) {
 TEST(GoldenStages, OfRobustInLittleNoise) {
   expect_hashes("sim:corridor?sigma=8&column_sigma=6&row_sigma=3&bad_pixels=20",
                 {{"frame", 0x097D3CB601F24096},
-                 {"noise", 0xCFEEF17F70C70EE9},
-                 {"dead pixels", 0x9B5DF59D2CE9529D},
-                 {"stripes", 0x538BA94996ECA367},
-                 {"corrected", 0xD4AA01CB39FB3368},
-                 {"levels", 0xA83C5C550F3FCE75},
-                 {"denoised", 0x8AC363E45A4F8303},
-                 {"edge pixels", 0x2A93AF7319DFD1E4},
-                 {"contours", 0xDD80B5748D007A04},
-                 {"linked", 0xE60EBB4380C8240A},
-                 {"corners", 0x695E83A34ACCF28A},
-                 {"scores", 0x93CF6978301D1449},
-                 {"significance", 0x4565317AD0F91050},
-                 {"positions", 0x2F20C2EA6B01D64C},
-                 {"selection", 0x4FA7283716863C57}});
+                 {"noise", 0x64E1755ED0D503A8},
+                 {"bad pixels", 0x9B5DF59D2CE9529D},
+                 {"stripes", 0x6618217F3BEF7520},
+                 {"corrected", 0x33DD3B7C3C2C83C9},
+                 {"levels", 0xEACDBE0326602838},
+                 {"denoised", 0x3FF66D8F74D6EE5B},
+                 {"edge pixels", 0xB7E95CF2FBE2EB24},
+                 {"contours", 0xE8F05D98A396AE6A},
+                 {"linked", 0x63222EDC9AC529A9},
+                 {"corners", 0xBD5DC9AED253F82E},
+                 {"scores", 0xD879FCC150ED3A5D},
+                 {"significance", 0x06B4862CC43D53A4},
+                 {"positions", 0xDB43CBB554653558},
+                 {"selection", 0xFD1D172F283816FB}});
 }
 
 TEST(GoldenStages, OfRobustInStrongNoise) {
   expect_hashes("sim:desk?sigma=60&column_sigma=30&bad_pixels=20",
                 {{"frame", 0x2A43AE39268BB285},
-                 {"noise", 0xFDAD951B23DE202F},
-                 {"dead pixels", 0x9B5DF59D2CE9529D},
-                 {"stripes", 0x4C4CDA67E50AA628},
-                 {"corrected", 0x019B05B03673F69E},
-                 {"levels", 0xA146F020ADC6E731},
-                 {"denoised", 0xA0B1639D880ABDAB},
-                 {"edge pixels", 0x265DCD6C6B92A29B},
-                 {"contours", 0x8E1F1C832DA000AC},
-                 {"linked", 0xEFC378AE846BB252},
-                 {"corners", 0x783595C8A9BA1B0D},
-                 {"scores", 0xD2D4A5902CA3D5AE},
-                 {"significance", 0x23528207EDFAFBF2},
-                 {"positions", 0x0685625ED4D2A21A},
-                 {"selection", 0xA05A995D3ADE014D}});
+                 {"noise", 0xA8E6B9DFDF81DEDA},
+                 {"bad pixels", 0x9B5DF59D2CE9529D},
+                 {"stripes", 0x34811106344451D2},
+                 {"corrected", 0xBF3F8EF7C3E8AB05},
+                 {"levels", 0x92649E88B9168FB9},
+                 {"denoised", 0x1F56A710365CF551},
+                 {"edge pixels", 0x4C44C9D6B2325164},
+                 {"contours", 0x503B9282DF9D71D4},
+                 {"linked", 0x0F8A2D75B3395580},
+                 {"corners", 0xD2A9B31325A96324},
+                 {"scores", 0xA4EC899DE20E579A},
+                 {"significance", 0x30D546914BD7C88A},
+                 {"positions", 0x137F879579DE4948},
+                 {"selection", 0x728E29A194EE70A7}});
 }
 
 }  // namespace

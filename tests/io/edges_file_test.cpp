@@ -40,7 +40,7 @@ Detection two_edges() {
 }
 
 TEST(EdgesJson, HoldsTheKeptEdges) {
-  const auto json = nlohmann::json::parse(edges_to_json(two_edges(), ""));
+  const auto json = nlohmann::json::parse(edges_to_json(two_edges(), "a.png"));
   EXPECT_EQ(json["source"], "a.png");
   EXPECT_EQ(json["sigma_counts"], 5.8);
   ASSERT_EQ(json["edges"].size(), 1U);
@@ -77,7 +77,7 @@ TEST(EdgesJson, SaysWhatWasMeasuredAndChosen) {
 }
 
 TEST(EdgesJson, IsOneLineWhateverTheName) {
-  const std::string text = edges_to_json(two_edges(), "");
+  const std::string text = edges_to_json(two_edges(), "a.png");
   EXPECT_EQ(text.find('\n'), text.size() - 1);
   EXPECT_TRUE(nlohmann::json::accept(text));
 }

@@ -90,9 +90,11 @@ TEST(ProbeRecordings, HandHeldPi450) {
   EXPECT_LT(report.offset_map_gain_8_frames.value_or(1), 1.1 * 0.10);
   EXPECT_NEAR(report.offset_map_gain_8_frames.value_or(0), gain_of_a_map(frames), 0.04);
   EXPECT_EQ(report.repeated_frames, 0);
-  ASSERT_EQ(report.suggested.size(), 1U);
-  EXPECT_EQ(report.suggested[0].name, "scale.gain");
-  EXPECT_EQ(report.suggested[0].value, "0.2");
+  EXPECT_TRUE(report.suggested.empty());
+  const auto for_paper = suggest_options(report, Preset::kPaper);
+  ASSERT_EQ(for_paper.size(), 1U);
+  EXPECT_EQ(for_paper[0].name, "grey_scale.gain");
+  EXPECT_EQ(for_paper[0].value, "0.2");
 }
 
 // Its noise is uneven: the flatter half of a whole frame has 8.4 counts.

@@ -236,7 +236,7 @@ TEST(Detector, KeepsBudgetsAndRanks) {
     EXPECT_EQ(set.edges[i].rank, static_cast<int>(i));
     EXPECT_EQ(set.edges[i].kept, i < set.kept);
     if (i > 0) {
-      EXPECT_GE(set.edges[i].score, set.edges[i - 1].score);
+      EXPECT_LE(set.edges[i].score, set.edges[i - 1].score);
     }
   }
 }

@@ -102,7 +102,8 @@ TEST_F(DenoiseProgram, KeepsMoreDetailThanTheSettingsForEdges) {
   const double by_default = error("");
   const double for_edges = error(
       "--set denoise.sigma_scale=1.2 --set denoise.detrend=true "
-      "--set denoise.bilateral.range_sigmas=0.2 --set denoise.bm3d.profile=balanced");
+      "--set denoise.bilateral.range_sigmas=0.2 --set denoise.bm3d.profile=balanced "
+      "--set denoise.bm3d.adjacent_blocks=false");
   EXPECT_LT(by_default, 0.85 * for_edges);
   EXPECT_LT(by_default, 0.85 * 20);
 }

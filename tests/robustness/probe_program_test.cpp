@@ -65,7 +65,8 @@ TEST_F(ProbeProgram, PrintsJson) {
 }
 
 TEST_F(ProbeProgram, WritesOptionsThatDetectTakes) {
-  const auto probed = run("probe 'sim:desk?width=96&height=72&frames=3' --toml robot.toml");
+  const auto probed =
+      run("probe 'sim:desk?width=96&height=72&frames=3' --preset paper --toml robot.toml");
   ASSERT_EQ(probed.exit_code, 0) << probed.err;
   const auto dumped = run("detect --config robot.toml --dump-config");
   ASSERT_EQ(dumped.exit_code, 0) << dumped.err;

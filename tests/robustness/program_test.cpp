@@ -68,11 +68,10 @@ TEST_F(Program, JsonHasWhatIsPromised) {
   ASSERT_EQ(json["edges"].size(), 3U);
   for (const auto& edge : json["edges"]) {
     for (const std::string key :
-         {"id", "rank", "score", "es", "z", "log10_nfa", "closed", "length_px", "contrast_counts",
-          "corners", "connected", "track", "points"}) {
+         {"index", "rank", "score", "es", "z", "log10_nfa", "closed", "length_px",
+          "contrast_counts", "corners", "connected", "points"}) {
       EXPECT_TRUE(edge.contains(key)) << key;
     }
-    EXPECT_TRUE(edge["track"].is_null());
     EXPECT_EQ(edge["points"][0].size(), 2U);
     for (const auto& corner : edge["corners"]) {
       EXPECT_LT(corner.get<std::size_t>(), edge["points"].size());
@@ -81,7 +80,7 @@ TEST_F(Program, JsonHasWhatIsPromised) {
   EXPECT_TRUE(json["stats"]["ms"].contains("denoise"));
 }
 
-// The paper's own way: ranked by the edge score, the smallest first, and options of its stages
+// The paper's own way: ranked by the edge score ES, the smallest first, and options of its stages
 // work.
 TEST_F(Program, PresetPaperGoesItsOwnWay) {
   const std::string detect =
@@ -95,7 +94,7 @@ TEST_F(Program, PresetPaperGoesItsOwnWay) {
   const auto all = edges(detect + "--set contours.min_component_px=10");
   ASSERT_GT(all.size(), 3U);
   for (std::size_t i = 0; i < all.size(); ++i) {
-    EXPECT_EQ(all[i]["score"], all[i]["es"]);
+    EXPECT_EQ(all[i]["score"].get<double>(), -all[i]["es"].get<double>());
     EXPECT_TRUE(i == 0 || all[i - 1]["es"] <= all[i]["es"]) << i;
   }
   EXPECT_LT(edges(detect + "--set contours.min_component_px=100").size(), all.size());
@@ -268,10 +267,14 @@ TEST_F(Program, ASheetHoldsOneFrame) {
 }
 
 TEST_F(Program, DumpedConfigurationIsReadBack) {
-  const auto dumped = run("detect --set contours.gap_px=2 --keep 7 --dump-config");
+  const auto dumped = run("detect --preset paper --set contours.gap_px=2 --keep 7 --dump-config");
   ASSERT_EQ(dumped.exit_code, 0);
   std::ofstream(directory_ / "robot.toml") << dumped.out;
   EXPECT_EQ(run("detect --config robot.toml --dump-config").out, dumped.out);
+  EXPECT_EQ(run("detect --config robot.toml --preset paper --dump-config").out, dumped.out);
+  const auto torn = run("detect --config robot.toml --preset fast --dump-config");
+  EXPECT_EQ(torn.exit_code, 2);
+  EXPECT_NE(torn.err.find("leave one of them out"), std::string::npos) << torn.err;
 }
 
 struct BadUsage {
@@ -282,7 +285,13 @@ struct BadUsage {
 TEST_F(Program, BadUsageIsOneLineAndExitsWith2) {
   const std::string scene = kScene;
   for (const BadUsage& usage : {
-           BadUsage{"detect " + scene + " --set contours.gap_px=99", "contours.gap_px = 99"},
+           BadUsage{"detect " + scene + " --preset paper --set contours.gap_px=99",
+                    "contours.gap_px = 99"},
+           BadUsage{"detect " + scene + " --set contours.gap_px=2",
+                    "preset robust does not use it"},
+           BadUsage{"detect " + scene + " --set preset=paper", "--preset"},
+           BadUsage{"detect " + scene + " --set denoise.nlm.patch_px=5", "denoise.nlm.patch_px"},
+           BadUsage{"detect " + scene + " --set oriented_filter.high=0.01", "high must be"},
            BadUsage{"detect " + scene + " --set nonsense=1", "nonsense"},
            BadUsage{"detect " + scene + " --sigma loud", "--sigma loud"},
            BadUsage{"detect " + scene + " --simd mmx", "mmx"},

@@ -216,7 +216,7 @@ TEST(Scorer, FitsFromCornerToCorner) {
   // The vertical part has 31 points on one abscissa: 31 * (31^2 - 1) / 12 = 2480; the other one 0.
   const double expected = 2480.0 / 71 * 382 * 288 * 9 / (71.0 * 71 * 71);
   EXPECT_NEAR(edges.edges[0].es, expected, 1e-9 * expected);
-  EXPECT_EQ(edges.edges[0].score, edges.edges[0].es);
+  EXPECT_EQ(edges.edges[0].score, -edges.edges[0].es);
 }
 
 TEST(Scorer, EndsCountAsCornersOnce) {
