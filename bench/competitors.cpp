@@ -8,6 +8,7 @@
 #include "peers/classical.hpp"
 #include "thermedge/detector.hpp"
 #include "thermedge/edge_fields.hpp"
+#include "thermedge/frame_denoiser.hpp"
 #include "thermedge/radiometry/grey_scale.hpp"
 #include "thermedge/stages/denoiser.hpp"
 #include "thermedge/stages/noise.hpp"
@@ -42,27 +43,15 @@ FrontEnd front_without_filter() {
           [](Counts counts, Map levels) { value_or_exit(scale_to_8bit(counts, kScale, levels)); }};
 }
 
-double sigma_levels(Counts counts) {
-  return NoiseEstimator().measure(counts).sigma_counts * kScale.gain;
-}
-
-FrontEnd our_denoiser(std::string name, DenoiseMethod method) {
+// Counts without their noise, then Algorithm 1.
+FrontEnd thermedge_denoiser(std::string name, DenoiseMethod method) {
   return {std::move(name), [method](Counts counts, Map levels) {
-            Image<std::uint8_t> plain(counts.width(), counts.height());
-            value_or_exit(scale_to_8bit(counts, kScale, plain));
-            Image<float> values(counts.width(), counts.height());
-            copy_pixels(plain.view(), values.view());
-            DenoiseOptions options;
-            options.method = method;
-            value_or_exit(Denoiser(options).run_measured(values, sigma_levels(counts), values,
-                                                         *make_runner(1)));
-            Image<std::uint16_t> rounded(counts.width(), counts.height());
-            round_to_counts(values, rounded);
-            for (int y = 0; y < levels.height(); ++y) {
-              for (int x = 0; x < levels.width(); ++x) {
-                levels(x, y) = static_cast<std::uint8_t>(std::min<int>(rounded(x, y), 255));
-              }
-            }
+            FrameDenoiserOptions options;
+            options.denoise = {};
+            options.denoise.method = method;
+            FrameDenoiser denoiser(options);
+            value_or_exit(scale_to_8bit(value_or_exit(denoiser.run(counts, *make_runner(1))),
+                                        kScale, levels));
           }};
 }
 
@@ -169,7 +158,7 @@ void Competitor::run(std::size_t setting, ImageView<const std::uint16_t> counts,
   finders[setting % finders.size()].run(levels, map);
 }
 
-WholeDetector ours(const DetectorOptions& options) {
+WholeDetector thermedge_detector(const DetectorOptions& options) {
   DetectorOptions on_one_thread = options;
   on_one_thread.threads = 1;
   const auto detector = std::make_shared<Detector>(value_or_exit(Detector::create(on_one_thread)));
@@ -184,7 +173,7 @@ std::vector<Competitor> all_competitors() {
   for (const auto& preset : kPresets) {
     all.push_back({"thermedge " + std::string(preset.name),
                    "thermedge",
-                   ours(DetectorOptions(preset.value)),
+                   thermedge_detector(DetectorOptions(preset.value)),
                    {},
                    {}});
   }
@@ -196,7 +185,7 @@ std::vector<Competitor> all_competitors() {
   for (const ClassicalName& method : kClassicalMethods) {
     Competitor competitor{display_name(method), "classical", {}, {}, {}};
     competitor.fronts = {front_without_filter(),
-                         our_denoiser("Gaussian 5x5", DenoiseMethod::kGaussian)};
+                         thermedge_denoiser("Gaussian 5x5", DenoiseMethod::kGaussian)};
     competitor.finders = classical_finders(method.method);
     all.push_back(std::move(competitor));
   }
@@ -206,7 +195,7 @@ std::vector<Competitor> all_competitors() {
 std::vector<FrontEnd> denoising_fronts() {
   std::vector<FrontEnd> fronts;
   fronts.push_back(front_without_filter());
-  fronts.push_back(our_denoiser("Gaussian", DenoiseMethod::kGaussian));
+  fronts.push_back(thermedge_denoiser("Gaussian", DenoiseMethod::kGaussian));
 #ifdef THERMEDGE_BENCH_OPENCV
   fronts.push_back(front("median", [](Levels in, Map out) { opencv_median(in, 5, out); }));
   fronts.push_back({"bilateral", [](Counts counts, Map levels) {
@@ -215,8 +204,8 @@ std::vector<FrontEnd> denoising_fronts() {
                       opencv_bilateral(plain, 3 * sigma_levels(counts), 2, levels);
                     }});
 #endif
-  fronts.push_back(our_denoiser("NL-means", DenoiseMethod::kNlm));
-  fronts.push_back(our_denoiser("BM3D", DenoiseMethod::kBm3d));
+  fronts.push_back(thermedge_denoiser("NL-means", DenoiseMethod::kNlm));
+  fronts.push_back(thermedge_denoiser("BM3D", DenoiseMethod::kBm3d));
   return fronts;
 }
 

@@ -42,7 +42,7 @@ struct Competitor {
 };
 
 // The mask of a detector on one thread.
-[[nodiscard]] WholeDetector ours(const DetectorOptions& options);
+[[nodiscard]] WholeDetector thermedge_detector(const DetectorOptions& options);
 
 // The presets, and each peer with the settings that it is tuned over.
 [[nodiscard]] std::vector<Competitor> all_competitors();

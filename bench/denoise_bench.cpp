@@ -22,6 +22,7 @@
 #include "thermedge/sim/scene.hpp"
 #include "thermedge/simd.hpp"
 #include "thermedge/stages/denoiser.hpp"
+#include "value_or_exit.hpp"
 #ifdef THERMEDGE_BENCH_OPENCV
 #include "peers/opencv_gaussian.hpp"
 #include "peers/opencv_nlm.hpp"
@@ -130,8 +131,8 @@ struct Competitor {
   Filter filter;
 };
 
-Competitor ours(const std::string& method, const std::string& settings, const std::string& simd,
-                int threads, const DenoiseOptions& options) {
+Competitor thermedge_denoiser(const std::string& method, const std::string& settings,
+                              const std::string& simd, int threads, const DenoiseOptions& options) {
   auto denoiser = std::make_shared<Denoiser>(options);
   auto runner = std::shared_ptr<ParallelRunner>(make_runner(threads));
   return {"thermedge",
@@ -154,15 +155,17 @@ std::vector<Competitor> competitors() {
       DenoiseOptions options;
       for (const auto& profile : kBm3dProfiles) {
         options.bm3d.profile = profile.value;
-        all.push_back(ours("BM3D", std::string(profile.name), simd, threads, options));
+        all.push_back(
+            thermedge_denoiser("BM3D", std::string(profile.name), simd, threads, options));
       }
       options.method = DenoiseMethod::kNlm;
-      all.push_back(ours("NL-means", "7/21", simd, threads, options));
+      all.push_back(thermedge_denoiser("NL-means", "7/21", simd, threads, options));
       options.method = DenoiseMethod::kGaussian;
-      all.push_back(ours("Gaussian", "5x5", simd, threads, options));
+      all.push_back(thermedge_denoiser("Gaussian", "5x5", simd, threads, options));
       for (const double sigma_px : {1.0, 2.0, 4.0}) {
         options.gaussian.sigma_px = sigma_px;
-        all.push_back(ours("Gaussian", fmt::format("sigma {}", sigma_px), simd, threads, options));
+        all.push_back(thermedge_denoiser("Gaussian", fmt::format("sigma {}", sigma_px), simd,
+                                         threads, options));
       }
     }
   }
@@ -222,13 +225,6 @@ double ms_of(const Competitor& competitor, ImageView<const float> in, ImageView<
   return ms / runs;
 }
 
-void use_simd(const std::string& target) {
-  if (const Status status = set_simd_target(target); !status) {
-    fmt::print(stderr, "{}\n", status.error().message);
-    std::exit(1);
-  }
-}
-
 // Everybody once a round, so that a busy moment of the machine is shared; medians over the rounds.
 std::vector<double> time_all(const std::vector<Competitor>& all, ImageView<const float> in) {
   std::vector<std::vector<double>> samples(all.size());
@@ -239,7 +235,8 @@ std::vector<double> time_all(const std::vector<Competitor>& all, ImageView<const
       if (is_slow && round > kRoundsOfSlowOnes) {
         continue;
       }
-      use_simd(all[i].simd.empty() ? "auto" : all[i].simd);
+      const SimdScope scope(
+          value_or_exit(SimdTarget::named(all[i].simd.empty() ? "auto" : all[i].simd)));
       if (!is_slow) {
         all[i].filter(in, kTimedSigma, out);  // its memory was last touched a round ago
       }
@@ -249,7 +246,6 @@ std::vector<double> time_all(const std::vector<Competitor>& all, ImageView<const
       }
     }
   }
-  use_simd("auto");
   std::vector<double> medians;
   for (auto& of_one : samples) {
     const auto middle = of_one.begin() + static_cast<std::ptrdiff_t>(of_one.size() / 2);

@@ -25,8 +25,8 @@ void add_row(const Frames& frames, const std::string& denoiser, const Competitor
                       p.counts.f_measure(), p.counts.precision(), p.counts.recall(), p.ms));
 }
 
-// Everything of preset `paper` behind the denoiser.
-Finder paper_behind() {
+// All stages of preset `paper` that come after its denoiser.
+Finder paper_after_denoiser() {
   DetectorOptions options = DetectorOptions(Preset::kPaper);
   options.denoise.method = DenoiseMethod::kNone;
   options.threads = 1;
@@ -35,7 +35,7 @@ Finder paper_behind() {
           [detector](ImageView<const std::uint8_t> levels, ImageView<std::uint8_t> map) {
             Image<std::uint16_t> counts(levels.width(), levels.height());
             copy_pixels(levels, counts.view());
-            draw_mask(value_or_exit(detector->detect(counts, 8))->edges, map);
+            draw_mask(value_or_exit(detector->detect(Frame(counts, 8))).edges, map);
           }};
 }
 
@@ -53,8 +53,8 @@ void measure_denoisers(const BenchOptions& options) {
         detector.fronts = {front};
         add_row(frames, front.name, detector, csv);
       }
-      add_row(frames, front.name, {"thermedge paper", "thermedge", {}, {front}, {paper_behind()}},
-              csv);
+      add_row(frames, front.name,
+              {"thermedge paper", "thermedge", {}, {front}, {paper_after_denoiser()}}, csv);
     }
     // On counts instead of levels, so that only the methods of the library can stand in front.
     for (const auto& [name, method] : {std::pair{"none", DenoiseMethod::kNone},
@@ -63,7 +63,8 @@ void measure_denoisers(const BenchOptions& options) {
                                        {"BM3D", DenoiseMethod::kBm3d}}) {
       DetectorOptions robust = DetectorOptions(Preset::kRobust);
       robust.denoise.method = method;
-      add_row(frames, name, {"thermedge robust", "thermedge", ours(robust), {}, {}}, csv);
+      add_row(frames, name, {"thermedge robust", "thermedge", thermedge_detector(robust), {}, {}},
+              csv);
     }
   }
   csv.write();

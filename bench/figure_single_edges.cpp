@@ -23,11 +23,9 @@ constexpr int kEmptyFrames = 40;        // that peers are set on
 
 // Without dead pixels and stripes, as our presets remove them: peers would find those first.
 Image<std::uint16_t> corrected(ImageView<const std::uint16_t> counts) {
-  BadPixelOptions options;
-  options.stripes = true;
-  Preprocessor preprocessor(options);
-  const double sigma = NoiseEstimator().measure(counts).sigma_counts;
-  const auto view = preprocessor.run(counts, sigma, *make_runner(1));
+  Preprocessor preprocessor({}, {.remove = true});
+  Corrections corrections;
+  const auto view = preprocessor.run(counts, *make_runner(1), corrections);
   Image<std::uint16_t> copy(view.width(), view.height());
   copy_pixels(view, copy.view());
   return copy;
@@ -73,7 +71,7 @@ std::vector<Entrant> entrants() {
   std::vector<Entrant> all;
   for (const Preset preset : {Preset::kRobust, Preset::kFast}) {
     all.push_back({"thermedge " + std::string(preset_name(preset)), "defaults", false,
-                   ours(DetectorOptions(preset))});
+                   thermedge_detector(DetectorOptions(preset))});
   }
   std::vector<Image<std::uint16_t>> frames;
   for (std::uint64_t seed = 1; seed <= kEmptyFrames; ++seed) {

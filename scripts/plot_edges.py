@@ -34,7 +34,7 @@ def style(rows):
     """Colour, line style and mark for each contender, in the order of the file."""
     looks, count = {}, {}
     for row in rows:
-        name, family = row["contender"], row["family"]
+        name, family = row["competitor"], row["family"]
         if name in looks:
             continue
         index = count[family] = count.get(family, -1) + 1
@@ -64,7 +64,7 @@ def draw_noise(rows, path):
     ends = {}
     for name, look in looks.items():
         points = [(float(row["noise_counts"]), float(row["f"])) for row in shown
-                  if row["contender"] == name]
+                  if row["competitor"] == name]
         ours = name in OURS
         axes.plot(*zip(*points), markersize=5, linewidth=2.2 if ours else 1.1,
                   zorder=3 if ours else 2, **look)
@@ -101,9 +101,9 @@ def label_heights(rows):
     for column in columns.values():
         placed = spread([float(row["f"]) for row in column], 0.036)
         below = max(0, max(placed) - 0.98)
-        heights.update({row["contender"]: height - below
+        heights.update({row["competitor"]: height - below
                         for row, height in zip(column, placed)})
-    return [heights[row["contender"]] for row in rows]
+    return [heights[row["competitor"]] for row in rows]
 
 
 def draw_time(rows, path):
@@ -115,14 +115,14 @@ def draw_time(rows, path):
         axes.text(13.2, 0.02, "80 frames a second", color="0.4", rotation=90, va="bottom",
                   fontsize=8, transform=axes.get_xaxis_transform())
         for row in shown:
-            look = looks[row["contender"]]
+            look = looks[row["competitor"]]
             axes.scatter(float(row["ms"]), float(row["f"]), color=look["color"],
                          marker=look["marker"], s=40, zorder=3)
         heights = label_heights(shown)
         for row, height in zip(shown, heights):
             x = float(row["ms"])
-            axes.annotate(row["contender"], (x, float(row["f"])), xytext=(x * 1.18, height),
-                          va="center", fontsize=7.5, color=looks[row["contender"]]["color"],
+            axes.annotate(row["competitor"], (x, float(row["f"])), xytext=(x * 1.18, height),
+                          va="center", fontsize=7.5, color=looks[row["competitor"]]["color"],
                           arrowprops={"arrowstyle": "-", "color": "0.85", "linewidth": 0.6})
         axes.set_xscale("log")
         axes.set_xlim(0.3, 1200)
@@ -140,7 +140,7 @@ def draw_time(rows, path):
 def shares(rows, name, setting, length):
     points = [(float(row["contrast_sigmas"]), int(row["found"]) / int(row["trials"]))
               for row in rows
-              if (row["contender"], row["setting"], row["length_px"]) == (name, setting, length)]
+              if (row["competitor"], row["setting"], row["length_px"]) == (name, setting, length)]
     return sorted(points)
 
 
@@ -158,7 +158,7 @@ def best_settings(rows):
     """Of each contender, the setting that finds the most in all."""
     found = {}
     for row in rows:
-        key = (row["contender"], row["setting"])
+        key = (row["competitor"], row["setting"])
         found[key] = found.get(key, 0) + int(row["found"])
     best = {}
     for (name, setting), count in found.items():
@@ -315,9 +315,9 @@ def draw_scaling(rows, path):
     shown = [row for row in rows if (row["width"], row["threads"]) == ("382", "1")]
     stages = [key[:-3] for key in rows[0] if key.endswith("_ms")]
     bottom = [0.0] * len(shown)
-    colours = plt.get_cmap("tab10").colors
+    colours = plt.get_cmap("tab20").colors
     for stage, colour in zip(stages, colours):
-        values = [float(row[f"{stage}_ms"]) for row in shown]
+        values = [float(row[f"{stage}_ms"] or 0) for row in shown]
         right.barh([row["preset"] for row in shown], values, left=bottom, color=colour, label=stage)
         bottom = [low + value for low, value in zip(bottom, values)]
     right.invert_yaxis()
@@ -332,8 +332,8 @@ def noise_table(rows):
     shown = [row for row in rows if row["set"] == "random"]
     noises = [noise for noise in dict.fromkeys(row["noise_counts"] for row in shown)]
     lines = []
-    for name in dict.fromkeys(row["contender"] for row in shown):
-        of_one = {row["noise_counts"]: row for row in shown if row["contender"] == name}
+    for name in dict.fromkeys(row["competitor"] for row in shown):
+        of_one = {row["noise_counts"]: row for row in shown if row["competitor"] == name}
         cells = [f"{float(of_one[noise]['f']):.3f}" for noise in noises]
         at = of_one["20"]
         lines.append([name] + cells + [f"{float(at['precision']):.2f} / {float(at['recall']):.2f}",
@@ -345,9 +345,9 @@ def noise_table(rows):
 def scenes_table(rows):
     shown = [row for row in rows if row["set"] != "random"]
     keys = list(dict.fromkeys((row["set"], row["noise_counts"]) for row in shown))
-    values = {(row["set"], row["noise_counts"], row["contender"]): row for row in shown}
+    values = {(row["set"], row["noise_counts"], row["competitor"]): row for row in shown}
     lines = [[name] + [f"{float(values[(*key, name)]['f']):.3f}" for key in keys]
-             for name in dict.fromkeys(row["contender"] for row in shown)]
+             for name in dict.fromkeys(row["competitor"] for row in shown)]
     return table([""] + [f"{name}, sigma {float(noise):.0f}" for name, noise in keys], lines)
 
 
@@ -365,7 +365,7 @@ def scaling_table(rows):
 def stages_table(rows):
     shown = [row for row in rows if (row["width"], row["threads"]) == ("382", "1")]
     stages = [key[:-3] for key in rows[0] if key.endswith("_ms")]
-    lines = [[f"`{row['preset']}`"] + [f"{float(row[stage + '_ms']):.2f}" for stage in stages]
+    lines = [[f"`{row['preset']}`"] + [f"{float(row[stage + '_ms']):.2f}" if row[stage + '_ms'] else "" for stage in stages]
              for row in shown]
     return table(["preset"] + stages, lines)
 

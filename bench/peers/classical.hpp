@@ -10,7 +10,7 @@ namespace thermedge::bench {
 inline void classical(ImageView<const std::uint8_t> levels, ClassicalMethod method,
                       double threshold, ImageView<std::uint8_t> map) {
   ClassicalOptions options;
-  (method == ClassicalMethod::kCanny ? options.paper()->canny.high_threshold : options.threshold) =
+  (method == ClassicalMethod::kCanny ? options.canny.high_threshold : options.threshold) =
       threshold;
   Image<float> values(levels.width(), levels.height());
   copy_pixels(levels, values.view());
