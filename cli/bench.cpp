@@ -39,6 +39,7 @@ struct Samples {
 struct BenchResult {
   int width = 0, height = 0, threads = 0;
   std::string simd;
+  std::size_t memory_bytes = 0;
   std::vector<Samples> stages;  // and the whole frame as the last
   [[nodiscard]] std::size_t frames() const { return stages.back().ms.size(); }
 };
@@ -97,6 +98,7 @@ Result<BenchResult> BenchCommand::time(const std::vector<io::SourceFrame>& frame
     if (i == kWarmUp) {
       start = Clock::now();
     } else if (i >= kWarmUp + frames.size() && ms_since(start) >= 1000 * seconds) {
+      result.memory_bytes = detector->memory_bytes();
       return result;
     }
     const io::SourceFrame& frame = frames[i % frames.size()];
@@ -134,6 +136,7 @@ void print_json(BenchResult& result) {
                          {"height", result.height},
                          {"threads", result.threads},
                          {"simd", result.simd},
+                         {"memory_bytes", result.memory_bytes},
                          {"frames", result.frames()},
                          {"stages", stages},
                          {"total", times(result.stages.back())},
@@ -142,8 +145,9 @@ void print_json(BenchResult& result) {
 }
 
 void print_table(BenchResult& result) {
-  fmt::print("{}x{} pixels, {} thread{}, {}, {} frames timed\n\n", result.width, result.height,
-             result.threads, result.threads == 1 ? "" : "s", result.simd, result.frames());
+  fmt::print("{}x{} pixels, {} thread{}, {}, {:.1f} MB of scratch memory, {} frames timed\n\n",
+             result.width, result.height, result.threads, result.threads == 1 ? "" : "s",
+             result.simd, static_cast<double>(result.memory_bytes) / 1e6, result.frames());
   fmt::print("{:<14}{:>12}{:>12}\n", "stage", "median ms", "p99 ms");
   for (Samples& stage : result.stages) {
     fmt::print("{:<14}{:>12.3f}{:>12.3f}\n", stage.name, stage.quantile(0.5), stage.quantile(0.99));

@@ -19,6 +19,7 @@ namespace thermedge::cli {
 template <class E, std::size_t N>
 [[nodiscard]] std::vector<std::string> names_of(const std::array<EnumName<E>, N>& list) {
   std::vector<std::string> names;
+  names.reserve(N);
   for (const EnumName<E>& entry : list) {
     names.emplace_back(entry.name);
   }

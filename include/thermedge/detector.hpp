@@ -50,6 +50,9 @@ class Detector {
 
   [[nodiscard]] const DetectorOptions& options() const;
   [[nodiscard]] int threads() const;
+  // Scratch memory held by all stages, bytes: 0 before the first frame, constant after the second
+  // of a size. A Detection is the caller's.
+  [[nodiscard]] std::size_t memory_bytes() const;
 
  private:
   struct Impl;

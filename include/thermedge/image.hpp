@@ -144,6 +144,8 @@ class Image {
   [[nodiscard]] T& operator()(int x, int y) { return view_(x, y); }
   [[nodiscard]] const T& operator()(int x, int y) const { return view_(x, y); }
 
+  [[nodiscard]] std::size_t capacity_bytes() const { return capacity_ * sizeof(T); }
+
   void swap(Image& other) noexcept {
     std::swap(data_, other.data_);
     std::swap(capacity_, other.capacity_);

@@ -19,6 +19,10 @@ enum class ErrorCode {
 
 // `message` is one line that names the file or option, what is wrong, and what would be right.
 struct Error {
+  Error() = default;
+  Error(ErrorCode error_code, std::string text, std::string option_name = {})
+      : code(error_code), message(std::move(text)), option(std::move(option_name)) {}
+
   ErrorCode code = ErrorCode::kInvalidArgument;
   std::string message;
   std::string option;  // full name of the option that is at fault, where one is

@@ -1,9 +1,11 @@
 // The light bilateral filter behind a denoiser.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "thermedge/image.hpp"
+#include "thermedge/memory.hpp"
 #include "thermedge/parallel_runner.hpp"
 #include "thermedge/stages/denoiser.hpp"
 
@@ -19,6 +21,11 @@ class BilateralFilter {
 
   // `in` may be `out`. `range` > 0: of the differences that are evened out, in the units of `in`.
   void run(ImageView<const float> in, double range, ImageView<float> out, ParallelRunner& runner);
+
+  // Memory held, bytes.
+  [[nodiscard]] std::size_t memory_bytes() const {
+    return memory_of(weights_, padded_, rows_, result_);
+  }
 
  private:
   [[nodiscard]] int radius() const;

@@ -43,6 +43,12 @@ class Bm3d {
   void run(ImageView<const float> in, const NoiseUnits& units, ImageView<float> out,
            ParallelRunner& runner);
 
+  // Memory held, bytes.
+  [[nodiscard]] std::size_t memory_bytes() const {
+    return memory_of(all_columns_, even_columns_, odd_columns_, noisy_, estimate_, guide_, bands_,
+                     sums_, corner_weights_, weights_);
+  }
+
  private:
   enum class Stage { kHard, kWiener };
   struct Band {
@@ -56,6 +62,10 @@ class Bm3d {
     Image<float> weights;
     MatchScratch match;
     std::vector<BlockGroup> groups;  // of a row
+
+    [[nodiscard]] std::size_t memory_bytes() const {
+      return memory_of(sums, weights, match, groups);
+    }
   };
 
   [[nodiscard]] Band band(int index) const;

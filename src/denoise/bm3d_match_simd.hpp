@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "thermedge/image.hpp"
+#include "thermedge/memory.hpp"
 
 namespace thermedge::detail {
 
@@ -103,6 +104,7 @@ class MatchGuide {
   // reference blocks are neighbours here. Columns outside the frame hold anything.
   [[nodiscard]] ImageView<const std::int16_t> phases() const { return phases_; }
   [[nodiscard]] int margin() const { return margin_; }
+  [[nodiscard]] std::size_t memory_bytes() const { return memory_of(phases_); }
 
  private:
   int width_ = 0;
@@ -120,7 +122,11 @@ struct ReferenceRow {
 
 // Scratch memory of match_row; one for each task that runs at a time. Columns are reference blocks.
 struct MatchScratch {
-  // For rows that reach over so many cells; match_row does it otherwise.
+  [[nodiscard]] std::size_t memory_bytes() const {
+    return memory_of(cells, pairs, least, nearest, is_right, taken, keys);
+  }
+
+  // For rows that reach over this many cells; match_row does it otherwise.
   void prepare(const SearchPattern& pattern, int cells_in_row);
 
   Image<std::uint16_t> cells;    // a row for each candidate of one dy: sums over cells

@@ -11,6 +11,7 @@
 #include "float_frame.hpp"
 #include "gaussian.hpp"
 #include "nlm.hpp"
+#include "thermedge/memory.hpp"
 
 namespace thermedge {
 namespace {
@@ -193,6 +194,11 @@ Denoiser::Denoiser(const DenoiseOptions& options) : impl_(std::make_unique<Impl>
 Denoiser::Denoiser(Denoiser&&) noexcept = default;
 Denoiser& Denoiser::operator=(Denoiser&&) noexcept = default;
 Denoiser::~Denoiser() = default;
+
+std::size_t Denoiser::memory_bytes() const {
+  return detail::memory_of(impl_->gaussian, impl_->nlm, impl_->bm3d, impl_->bilateral,
+                           impl_->detrend);
+}
 
 Status Denoiser::run(ImageView<const float> in, double sigma, ImageView<float> out,
                      ParallelRunner& runner) {

@@ -1,10 +1,12 @@
 // The smooth background of a frame, taken off while it is denoised.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "robust_line_fit.hpp"
 #include "thermedge/image.hpp"
+#include "thermedge/memory.hpp"
 
 namespace thermedge::detail {
 
@@ -19,6 +21,11 @@ class Detrender {
   // `out` may be `in`.
   void subtract(ImageView<const float> in, ImageView<float> out) const;
   void add(ImageView<float> frame) const;
+
+  // Memory held, bytes.
+  [[nodiscard]] std::size_t memory_bytes() const {
+    return memory_of(blocks_, slopes_, distances_, columns_, rows_);
+  }
 
  private:
   void fill(const Line& slope, std::vector<float>& profile);

@@ -1,8 +1,10 @@
 // Gaussian smoothing: the 5x5 kernel of eq. 5, or any sigma.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
+#include "thermedge/memory.hpp"
 #include "thermedge/stages/denoiser.hpp"
 
 namespace thermedge::detail {
@@ -16,6 +18,9 @@ class GaussianFilter {
 
   // `out` may be `in`. `share`, 0 to 1: of the standard deviation; not of the 5x5 kernel.
   void run(ImageView<const float> in, double share, ImageView<float> out, ParallelRunner& runner);
+
+  // Memory held, bytes.
+  [[nodiscard]] std::size_t memory_bytes() const { return memory_of(weights_, padded_, rows_); }
 
  private:
   [[nodiscard]] int radius() const;

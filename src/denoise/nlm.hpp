@@ -1,9 +1,11 @@
 // Non-local means (Buades, Coll, Morel 2005), pixel by pixel.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include "float_frame.hpp"
+#include "thermedge/memory.hpp"
 #include "thermedge/stages/denoiser.hpp"
 
 namespace thermedge::detail {
@@ -22,6 +24,11 @@ class NonLocalMeans {
   // `out` may be `in`.
   void run(ImageView<const float> in, const NoiseUnits& units, ImageView<float> out,
            ParallelRunner& runner);
+
+  // Memory held, bytes.
+  [[nodiscard]] std::size_t memory_bytes() const {
+    return memory_of(values_, levels_, boxes_, sums_, weights_);
+  }
 
  private:
   void pad(ImageView<const float> in, const NoiseUnits& units, double levels_per_sigma,

@@ -14,6 +14,7 @@
 #include "portable_math.hpp"
 #include "smoothing_simd.hpp"
 #include "suppression_simd.hpp"
+#include "thermedge/memory.hpp"
 
 namespace thermedge {
 namespace {
@@ -518,6 +519,13 @@ OrientedFilterBank::OrientedFilterBank(const OrientedFilterOptions& options)
 OrientedFilterBank::OrientedFilterBank(OrientedFilterBank&&) noexcept = default;
 OrientedFilterBank& OrientedFilterBank::operator=(OrientedFilterBank&&) noexcept = default;
 OrientedFilterBank::~OrientedFilterBank() = default;
+
+std::size_t OrientedFilterBank::memory_bytes() const {
+  const Impl& self = *impl_;
+  return detail::memory_of(self.padded, self.gx, self.gy, self.scratch, self.fine_magnitude,
+                           self.projected, self.response, self.direction, self.suppressed_response,
+                           self.places, self.of_places, self.fine_classes, self.edges, self.group);
+}
 
 Result<OrientedFilterResult> OrientedFilterBank::run(ImageView<const float> in, double sigma_counts,
                                                      double noisiness, ParallelRunner& runner) {

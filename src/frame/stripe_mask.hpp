@@ -1,6 +1,7 @@
 // Which pixels of a frame say nothing about stripes because an edge of the scene lies between them.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -8,6 +9,7 @@
 #include "lag_sums_simd.hpp"
 #include "stripe_mask_simd.hpp"
 #include "thermedge/image.hpp"
+#include "thermedge/memory.hpp"
 
 namespace thermedge::detail {
 
@@ -34,6 +36,13 @@ class StripeMask {
   void reach_right(ImageView<std::uint16_t> reach) const;
   // The same downwards; a picture of the transposed frame.
   void reach_down(ImageView<std::uint16_t> reach) const;
+
+  // Memory held, bytes.
+  [[nodiscard]] std::size_t memory_bytes() const {
+    return memory_of(squares_, smoothed_, upright_steps_, level_steps_, transposed_steps_,
+                     upright_sums_, level_sums_, upright_, level_, transposed_, ends_, sample_,
+                     of_columns_, of_rows_);
+  }
 
  private:
   void add_up(ImageView<const std::uint16_t> frame, std::span<const double> columns,

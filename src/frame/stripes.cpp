@@ -70,6 +70,12 @@ const JumpRoots kJumpRoots;
 // Offsets of the columns of one frame.
 class ColumnOffsets {
  public:
+  [[nodiscard]] std::size_t memory_bytes() const {
+    return detail::memory_of(row_sums_, row_numbers_, sums_, numbers_, differences_, weights_,
+                             profile_, offsets_, background_, sorted_, cumulated_, clearness_,
+                             slopes_, jumps_, reach_left_, reach_right_, segment_);
+  }
+
   void prepare(int columns, int rows);
 
   // Fills offsets(), in units of `sigma`, from pairs of pixels with no edge between them: `reach`
@@ -393,6 +399,12 @@ StripeFinder::StripeFinder() : impl_(std::make_unique<Impl>()) {}
 StripeFinder::StripeFinder(StripeFinder&&) noexcept = default;
 StripeFinder& StripeFinder::operator=(StripeFinder&&) noexcept = default;
 StripeFinder::~StripeFinder() = default;
+
+std::size_t StripeFinder::memory_bytes() const {
+  const Impl& self = *impl_;
+  return detail::memory_of(self.columns, self.rows, self.mask, self.copy, self.transposed,
+                           self.reach, self.transposed_reach);
+}
 
 void StripeFinder::measure(ImageView<const std::uint16_t> frame, double sigma_counts,
                            ParallelRunner& runner, StripeOffsets& offsets) {

@@ -118,6 +118,7 @@ Detector::~Detector() = default;
 
 const DetectorOptions& Detector::options() const { return impl_->options; }
 int Detector::threads() const { return impl_->runner.threads(); }
+std::size_t Detector::memory_bytes() const { return impl_->pipeline->memory_bytes(); }
 
 Status Detector::detect(const Frame& frame, Detection& detection, const DetectRequest& request) {
   THERMEDGE_TRY(check_frame(frame));

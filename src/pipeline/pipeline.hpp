@@ -33,6 +33,8 @@ class Pipeline {
   virtual Status detect(const Frame& frame, const Call& call, Detection& found) = 0;
   virtual Status trace(ImageView<const std::uint8_t> edge_map, const Call& call,
                        Detection& found) = 0;
+  // Scratch memory of all stages, bytes.
+  [[nodiscard]] virtual std::size_t memory_bytes() const = 0;
 };
 
 // The one place that knows which preset is run by which pipeline.

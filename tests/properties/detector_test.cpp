@@ -399,6 +399,23 @@ TEST(Detector, RunsOnTheCallersRunnerAndOutlivesNoResult) {
   EXPECT_EQ(fingerprint(found), fingerprint(*one->detect(frame.counts)));
 }
 
+TEST(Detector, ReportsItsMemory) {
+  for (const auto& preset : kPresets) {
+    Detector one = detector(DetectorOptions(preset.value));
+    const auto small = test::noise_image<std::uint16_t>(96, 72, 3000, 50, 1);
+    const auto large = test::noise_image<std::uint16_t>(192, 144, 3000, 50, 1);
+    ASSERT_TRUE(one.detect(small));
+    const std::size_t of_small = one.memory_bytes();
+    EXPECT_GT(of_small, 10 * small.size());  // at least some float pictures
+    ASSERT_TRUE(one.detect(large));
+    const std::size_t of_large = one.memory_bytes();
+    EXPECT_GT(of_large, 2 * of_small);
+    EXPECT_LT(of_large, 1000 * large.size());
+    ASSERT_TRUE(one.detect(large));
+    EXPECT_EQ(one.memory_bytes(), of_large);
+  }
+}
+
 TEST(Detector, EachHasItsOwnInstructionSet) {
   const auto frame = small_desk(20);
   DetectorOptions options;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "thermedge/image.hpp"
+#include "thermedge/memory.hpp"
 #include "thermedge/option_list.hpp"
 #include "thermedge/parallel_runner.hpp"
 #include "thermedge/result.hpp"
@@ -60,6 +61,11 @@ class Canny {
 
   // Errors: empty frame, option out of range, a pixel that is NaN, infinite or beyond 1e18.
   [[nodiscard]] Result<CannyResult> run(ImageView<const float> in, ParallelRunner& runner);
+
+  // Memory held, bytes.
+  [[nodiscard]] std::size_t memory_bytes() const {
+    return detail::memory_of(bands_, bordered_, gx_, gy_, magnitude_, edges_, group_);
+  }
 
  private:
   static constexpr int kBins = 64;

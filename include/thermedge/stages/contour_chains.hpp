@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "thermedge/memory.hpp"
 #include "thermedge/stages/contours.hpp"
 
 namespace thermedge::detail {
@@ -38,6 +39,9 @@ class CurveChains {
   void assemble(const ContourSet& contours, ContourSet& chained);
   // In what assemble() appended to a cleared set: the chain that a contour became part of.
   [[nodiscard]] std::int32_t chain_of(std::size_t contour) const { return chain_of_[contour]; }
+
+  // Memory held, bytes.
+  [[nodiscard]] std::size_t memory_bytes() const { return memory_of(ends_, chain_of_); }
 
  private:
   struct End {

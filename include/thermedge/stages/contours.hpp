@@ -8,6 +8,7 @@
 
 #include "thermedge/geometry.hpp"
 #include "thermedge/image.hpp"
+#include "thermedge/memory.hpp"
 #include "thermedge/option_list.hpp"
 #include "thermedge/result.hpp"
 
@@ -66,6 +67,11 @@ class ContourTracer {
   // Junctions: ends of open curves at most gap_px + 1 away from a pixel of another curve.
   // Errors: an option out of range; a frame of more than 2^31 pixels.
   [[nodiscard]] Status run(ImageView<const std::uint8_t> edges, ContourSet& contours);
+
+  // Memory held, bytes.
+  [[nodiscard]] std::size_t memory_bytes() const {
+    return detail::memory_of(map_, owner_, steps_, touching_, visited_);
+  }
 
  private:
   void prepare(ImageView<const std::uint8_t> edges, ContourSet& contours);

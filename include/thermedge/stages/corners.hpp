@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "thermedge/memory.hpp"
 #include "thermedge/option_list.hpp"
 #include "thermedge/result.hpp"
 #include "thermedge/stages/contours.hpp"
@@ -72,6 +73,11 @@ class CornerFinder {
   // `corners` is cleared first. Coordinates: -2^29 .. 2^29.
   // Errors: an option out of range.
   [[nodiscard]] Status run(const ContourSet& contours, CornerSet& corners);
+
+  // Memory held, bytes.
+  [[nodiscard]] std::size_t memory_bytes() const {
+    return detail::memory_of(kernel_, padded_, x_steps_, y_steps_, curvature_, candidates_, sharp_);
+  }
 
  private:
   struct Curve {

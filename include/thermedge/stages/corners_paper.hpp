@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "thermedge/memory.hpp"
 #include "thermedge/option_list.hpp"
 #include "thermedge/result.hpp"
 #include "thermedge/stages/contours.hpp"
@@ -51,6 +52,12 @@ class PaperCornerFinder {
   // `corners` is cleared first. Coordinates of pixels must not be negative.
   // Errors: an option out of range.
   [[nodiscard]] Status run(const ContourSet& contours, CornerSet& corners);
+
+  // Memory held, bytes.
+  [[nodiscard]] std::size_t memory_bytes() const {
+    return detail::memory_of(kernel_, padded_, rows_, columns_, curvature_, extrema_, candidates_,
+                             sharp_, found_, last_in_row_, inner_.indices, inner_.ranges);
+  }
 
  private:
   void prepare(const ContourSet& contours, CornerSet& corners);

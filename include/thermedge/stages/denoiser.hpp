@@ -139,6 +139,9 @@ class Denoiser {
   [[nodiscard]] Status run_measured(ImageView<const float> in, double sigma, ImageView<float> out,
                                     ParallelRunner& runner, double burden = 1);
 
+  // Memory held, bytes.
+  [[nodiscard]] std::size_t memory_bytes() const;
+
  private:
   struct Impl;
   std::unique_ptr<Impl> impl_;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "thermedge/image.hpp"
+#include "thermedge/memory.hpp"
 #include "thermedge/option_list.hpp"
 #include "thermedge/result.hpp"
 #include "thermedge/stages/contours.hpp"
@@ -50,6 +51,13 @@ class GraphTracer {
   // Errors: an option out of range; sizes that differ; a frame of more than 2^30 pixels.
   [[nodiscard]] Status run(ImageView<const std::uint8_t> edges, ImageView<const float> response,
                            LinkedContours& curves);
+
+  // Memory held, bytes.
+  [[nodiscard]] std::size_t memory_bytes() const {
+    return detail::memory_of(map_, neighbours_, label_, order_, pixels_, candidates_,
+                             junction_pixels_, junctions_, segments_, ends_, used_, ends_at_,
+                             ends_of_junction_, pairs_, through_, passed_);
+  }
 
  private:
   // A segment is a run of pixels between junctions or free ends. Ends are numbered: 2 i is the

@@ -1,12 +1,14 @@
 // Carries curves on over gaps.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "thermedge/image.hpp"
+#include "thermedge/memory.hpp"
 #include "thermedge/option_list.hpp"
 #include "thermedge/result.hpp"
 #include "thermedge/stages/contour_chains.hpp"
@@ -49,6 +51,11 @@ class GapCloser {
   // range.
   [[nodiscard]] Status run(const LinkedContours& curves, ImageView<const float> frame,
                            std::span<const std::uint8_t> eligible, LinkedContours& bridged);
+
+  // Memory held, bytes.
+  [[nodiscard]] std::size_t memory_bytes() const {
+    return detail::memory_of(chains_, window_, offsets_, bridges_, owner_, place_);
+  }
 
  private:
   struct Vector {

@@ -1,10 +1,12 @@
 // Joins broken curves (paper Algorithm 5).
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "thermedge/memory.hpp"
 #include "thermedge/option_list.hpp"
 #include "thermedge/result.hpp"
 #include "thermedge/stages/contour_chains.hpp"
@@ -61,6 +63,11 @@ class Linker {
   // Errors: an option out of range.
   [[nodiscard]] Status run(const ContourSet& contours, int width, int height,
                            LinkedContours& linked);
+
+  // Memory held, bytes.
+  [[nodiscard]] std::size_t memory_bytes() const {
+    return detail::memory_of(offsets_, chains_, next_at_pixel_, end_at_, owner_);
+  }
 
  private:
   void prepare(const ContourSet& contours, int width, int height, LinkedContours& linked);

@@ -1,10 +1,12 @@
 // How noisy a frame is, measured on the frame itself.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
 #include "thermedge/image.hpp"
+#include "thermedge/memory.hpp"
 
 namespace thermedge {
 
@@ -27,6 +29,11 @@ struct NoiseEstimate {
 class NoiseEstimator {
  public:
   [[nodiscard]] NoiseEstimate measure(ImageView<const std::uint16_t> frame);
+
+  // Memory held, bytes.
+  [[nodiscard]] std::size_t memory_bytes() const {
+    return detail::memory_of(frame_, residual_, slope_, histogram_, samples_, profile_);
+  }
 
  private:
   void filter(ImageView<const std::uint16_t> frame);

@@ -85,6 +85,9 @@ class OrientedFilterBank {
   [[nodiscard]] Result<OrientedFilterResult> run(ImageView<const float> in, double sigma_counts,
                                                  double noisiness, ParallelRunner& runner);
 
+  // Memory held, bytes.
+  [[nodiscard]] std::size_t memory_bytes() const;
+
  private:
   struct Impl;
   std::unique_ptr<Impl> impl_;

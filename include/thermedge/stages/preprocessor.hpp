@@ -6,6 +6,7 @@
 
 #include "thermedge/frame.hpp"
 #include "thermedge/image.hpp"
+#include "thermedge/memory.hpp"
 #include "thermedge/parallel_runner.hpp"
 #include "thermedge/stages/bad_pixels.hpp"
 #include "thermedge/stages/noise.hpp"
@@ -44,6 +45,11 @@ class Preprocessor {
 
   // Nonzero where the last frame was a measurement; empty where it was everywhere.
   [[nodiscard]] ImageView<const std::uint8_t> valid() const { return valid_view_; }
+
+  // Memory held, bytes.
+  [[nodiscard]] std::size_t memory_bytes() const {
+    return detail::memory_of(noise_estimator_, stripe_finder_, corrected_, valid_, sample_);
+  }
 
  private:
   void load(const Frame& frame, Corrections& corrections);

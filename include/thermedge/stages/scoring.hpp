@@ -8,6 +8,7 @@
 
 #include "thermedge/edge_set.hpp"
 #include "thermedge/image.hpp"
+#include "thermedge/memory.hpp"
 #include "thermedge/option_list.hpp"
 #include "thermedge/result.hpp"
 #include "thermedge/stages/contours.hpp"
@@ -71,6 +72,11 @@ class Scorer {
                            int height, EdgeSet& edges);
   [[nodiscard]] Status run(const LinkedContours& linked, const CornerSet& corners,
                            ImageView<const float> suppressed_response, EdgeSet& edges);
+
+  // Memory held, bytes.
+  [[nodiscard]] std::size_t memory_bytes() const {
+    return detail::memory_of(connections_, order_, rank_of_);
+  }
 
  private:
   struct Ranked {

@@ -1,11 +1,13 @@
 // Which edges are kept.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
 #include "thermedge/edge_set.hpp"
 #include "thermedge/image.hpp"
+#include "thermedge/memory.hpp"
 #include "thermedge/option_list.hpp"
 #include "thermedge/result.hpp"
 
@@ -45,6 +47,9 @@ class EdgeSelector {
   // Leaves the junctions at which two kept edges meet (within 2 px); behind run. `width`, `height`:
   // of the frame.
   void keep_junctions(int width, int height, EdgeSet& edges);
+
+  // Memory held, bytes.
+  [[nodiscard]] std::size_t memory_bytes() const { return detail::memory_of(rank_of_, owner_); }
 
  private:
   [[nodiscard]] EdgeStatus judge(const Edge& edge) const;

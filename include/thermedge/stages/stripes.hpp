@@ -54,6 +54,9 @@ class StripeFinder {
   void measure(ImageView<const std::uint16_t> frame, double sigma_counts, ParallelRunner& runner,
                StripeOffsets& offsets);
 
+  // Memory held, bytes.
+  [[nodiscard]] std::size_t memory_bytes() const;
+
  private:
   struct Impl;
   std::unique_ptr<Impl> impl_;
