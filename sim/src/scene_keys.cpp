@@ -57,7 +57,7 @@ constexpr double kMkPerCount = kDegcPerCount * 1000;
 constexpr std::array kKeys = {
     scene_key<&SceneOptions::seed>("seed", 0, 9e15),
     scene_key<&SceneOptions::frames>("frames", 1, 1e6),
-    scene_key<&SceneOptions::least_contrast_counts>("min_contrast_ratio", 0, 5000),
+    scene_key<&SceneOptions::least_contrast_counts>("least_contrast", 0, 5000),
     camera_key<&CameraOptions::width>("width", 16, 4096),
     camera_key<&CameraOptions::height>("height", 16, 4096),
     camera_key<&CameraOptions::rate_hz>("rate", 0.1, 1000),

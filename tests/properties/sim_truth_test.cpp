@@ -15,7 +15,7 @@ namespace {
 
 // Noise-free, with distortion and vignetting.
 TrueFrame clean_frame(const std::string& scene, const std::string& path, int index) {
-  auto options = parse_scene("sim:" + scene + "?camera=pi450&frames=400&min_contrast_ratio=1");
+  auto options = parse_scene("sim:" + scene + "?camera=pi450&frames=400&least_contrast=1");
   EXPECT_TRUE(set_scene_key("path", path, *options));
   auto frame = render(*options, index);
   EXPECT_TRUE(frame) << frame.error().message;
