@@ -189,7 +189,7 @@ void add_bench(CLI::App& program, int& exit_code) {
   app.add_option("--frames", command->most_frames, "frames read into memory, at most")
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();
-  app.add_option("--seconds", command->seconds, "goes round the frames for so long, at least once")
+  app.add_option("--seconds", command->seconds, "repeats the frames for this time, at least once")
       ->check(CLI::Range(0.0, 86400.0))
       ->capture_default_str();
   app.add_flag("--json", command->json, "one JSON object instead of the table");

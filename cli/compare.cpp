@@ -1,4 +1,4 @@
-// `compare`: the classical detectors and ours on one sheet.
+// `compare`: the classical detectors and thermedge on one sheet.
 #include <fmt/core.h>
 
 #include <algorithm>

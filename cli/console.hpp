@@ -1,4 +1,4 @@
-// What the program says while it works: errors, notes and progress, on standard error.
+// Messages of the program while it works: errors, notes and progress, on standard error.
 #pragma once
 
 #include <chrono>

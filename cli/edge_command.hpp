@@ -1,4 +1,4 @@
-// What `detect` and `trace` have in common.
+// Shared by `detect` and `trace`.
 #pragma once
 
 #include <functional>

@@ -103,7 +103,7 @@ std::string ProbeCommand::name() const {
 
 void add_probe(CLI::App& program, int& exit_code) {
   CLI::App& app = *program.add_subcommand(
-      "probe", "what a recording is like: range, noise, stripes, dead pixels, freezes, options");
+      "probe", "what a recording is like: range, noise, stripes, bad pixels, freezes, options");
   auto command = std::make_shared<ProbeCommand>();
   command->common.add_to(app);
   app.get_option("-o")->description("also as a picture: .png, .svg or .pdf");

@@ -28,7 +28,7 @@ std::string_view grade(const Grade (&grades)[N], double value) {
 
 constexpr double kAnything = 1e300;
 
-// Of a pixel, degC. Makers of uncooled cameras state 0.03 to 0.06 (NETD).
+// Grades of the noise of a pixel, degC. Makers of uncooled cameras state 0.03 to 0.06 (NETD).
 constexpr Grade kSigmaGrades[] = {{0.03, "very good for an uncooled camera"},
                                   {0.07, "usual for an uncooled camera"},
                                   {0.12, "noisy: a denoiser is worth its time"},
@@ -37,7 +37,7 @@ constexpr Grade kSnrGrades[] = {{15, "poor: strong edges only"},
                                 {60, "low, as of small cheap cameras"},
                                 {200, "usual"},
                                 {kAnything, "good"}};
-// Of the sigma of the pixels.
+// Grades of stripes, as shares of the sigma of the pixels.
 constexpr Grade kStripeGrades[] = {{0.125, "none to be seen"},
                                    {0.25, "weak, harmless"},
                                    {0.4, "clear: they cost faint edges"},
@@ -79,7 +79,7 @@ class Page {
   }
   static std::string percent(double share) { return fmt::format("{:.1f} %", 100 * share); }
 
-  // What to do about it, where there is something.
+  // The remedy, where there is one.
   [[nodiscard]] std::string lost_to_clipping() const {
     for (const SuggestedOption& option : report_.suggested) {
       if (option.name == "scale.gain") {
@@ -112,7 +112,7 @@ void Page::range() {
                      1 << report_.unused_low_bits, report_.unused_low_bits));
   }
   row("of all frames", fmt::format("{} to {} {}", report_.min_counts, report_.max_counts, unit()),
-      "the coldest and the hottest pixel, dead ones included");
+      "the coldest and the hottest pixel, bad ones included");
   if (report_.min_degc && report_.max_degc) {
     row("", fmt::format("{:.1f} to {:.1f} degC", *report_.min_degc, *report_.max_degc),
         "as temperatures of black bodies, by the camera's response");

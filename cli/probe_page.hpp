@@ -1,4 +1,4 @@
-// What a recording is like, in plain words.
+// The properties of a recording in plain words.
 #pragma once
 
 #include <string>

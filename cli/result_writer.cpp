@@ -32,7 +32,7 @@ const Kind* find_kind(std::string_view name) {
   return found == kKinds.end() ? nullptr : found;
 }
 
-// What `-o x.ENDING` means for a single frame; empty where the ending means nothing.
+// The kind of result that `-o x.ENDING` asks for; empty where the ending is unknown.
 std::string_view kind_of_file(const std::string& output) {
   const std::string ending = std::filesystem::path(output).extension().string();
   return ending == ".png" ? "mask" : ending == ".json" ? "json" : ending == ".svg" ? "svg" : "";

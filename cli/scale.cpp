@@ -80,7 +80,7 @@ std::string state_line(const io::SourceFrame& frame, std::int64_t index,
   return line.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
-// What the view did with each frame is written even where some frames were bad.
+// The scale of each frame is written even where some frames were bad.
 int ScaleCommand::run_stable(const io::SourceOptions& source, Console& report) const {
   StableGreyScaleOptions options = view;
   options.gain = gain.value_or(options.gain);

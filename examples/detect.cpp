@@ -16,7 +16,7 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "%s\n", frame.error().message.c_str());
     return 1;
   }
-  auto detector = thermedge::Detector::create({});
+  auto detector = thermedge::Detector::create();
   if (!detector) {
     std::fprintf(stderr, "%s\n", detector.error().message.c_str());
     return 1;

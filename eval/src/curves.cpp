@@ -15,7 +15,7 @@ struct Lengths {
   double found_px = 0;
 };
 
-// Of a true curve, and of what lies within reach of the found ones.
+// The length of a true curve, and of its part within reach of the found ones.
 Lengths measure(const Curve& curve, const NearestOnCurves& found) {
   Lengths lengths;
   for_each_piece(curve, [&](Point middle, double length_px) {

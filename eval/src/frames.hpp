@@ -1,4 +1,4 @@
-// What judging with and without truth have in common.
+// Shared by evaluation with and without truth.
 #pragma once
 
 #include <cstddef>

@@ -69,7 +69,7 @@ class GrowingMatching {
       }
       return false;
     }
-    while (free != kNone) {  // back along the path, each takes the partner of the one behind
+    while (free != kNone) {  // back along the path, each takes the partner of the one after it
       const std::int32_t taker = reached_from_[at(free)];
       found_of_[at(free)] = taker;
       free = std::exchange(truth_of_[at(taker)], free);

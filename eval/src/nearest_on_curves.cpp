@@ -74,7 +74,7 @@ void NearestOnCurves::for_each_cell(Point low, Point high, F&& visit) const {
   }
 }
 
-// Of places at the same distance the one on the first curve is taken.
+// Where several places have the same distance, the one on the first curve is taken.
 NearestOnCurves::Place NearestOnCurves::nearest(Point point) const {
   Place best;
   std::uint32_t best_segment = 0;

@@ -105,7 +105,7 @@ double sum(const Lengths& lengths) {
   return static_cast<double>(std::accumulate(lengths.begin(), lengths.end(), std::int64_t{0}));
 }
 
-// Of sorted lengths: the mean of the two in the middle where their number is even.
+// The median of sorted lengths: the mean of the two in the middle where their number is even.
 double median(const Lengths& sorted) {
   const std::size_t upper = sorted.size() / 2;
   const std::size_t lower = (sorted.size() - 1) / 2;

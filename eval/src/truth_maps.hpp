@@ -1,4 +1,4 @@
-// What the readers of truth have in common.
+// Shared by the readers of truth.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
-// What figures are drawn with: boxes, lines, marks, pictures, text. Lengths are in points, x right,
-// y down, except inside Canvas::inside_frame.
+// The drawing surface of figures: boxes, lines, marks, pictures, text. Lengths are in points, x
+// right, y down, except inside Canvas::inside_frame.
 #pragma once
 
 #include <cairo.h>

@@ -31,7 +31,7 @@ class Chart {
   void line(std::span<const Point> data, Rgb colour);
   // Columns that stand on y = 0 (or the lower end of y): edges.size() - 1 heights.
   void columns(std::span<const double> edges, std::span<const double> heights, Rgb colour);
-  // A horizontal bar from x0 to x1 with a text behind it, as the `row`-th from above.
+  // A horizontal bar from x0 to x1 with a text after it, as the `row`-th from above.
   void bar(double x0, double x1, int row, Rgb colour, std::string_view text);
   void horizontal(double y, Rgb colour);
 

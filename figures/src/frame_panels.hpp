@@ -10,8 +10,8 @@
 
 namespace thermedge::figures {
 
-// What draws a picture into a box. The views and references given to the functions below must stay
-// valid until it has been called.
+// Functions that draw a picture into a box. The views and references given to the functions below
+// must stay valid until it has been called.
 using Draw = std::function<void(Canvas&, const Box&)>;
 
 // Counts between the 0.5th and the 99.5th percentile, black to white.

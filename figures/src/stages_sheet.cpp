@@ -19,7 +19,7 @@ namespace {
 
 constexpr int kColumns = 4;
 
-// What one denoiser made of the levels.
+// The output of one denoiser.
 struct Denoised {
   DenoiseMethod method;
   Image<std::uint8_t> levels;

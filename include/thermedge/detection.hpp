@@ -1,4 +1,4 @@
-// What the detector found in one frame.
+// The result of one frame: edges, and the figures that were measured on the way to them.
 #pragma once
 
 #include <cstdint>
@@ -30,8 +30,7 @@ struct Detection {
   double sigma_counts = 0;  // the noise that the denoiser was told; 0: none, so it copied the frame
   double threshold_low = 0,
          threshold_high = 0;  // hysteresis: Sobel magnitude in grey levels, or units of the noise
-  // Of the oriented filter, 0 otherwise: what its thresholds are in units of, and where that is
-  // from.
+  // The unit of the oriented filter's thresholds and where it comes from; 0 for preset paper.
   double range_counts = 0;  // of the frame, its 0.1st to 99.9th percentile
   double unit_counts = 0;   // noise, at least a share of the range
   KernelSize kernel_px{0, 0};

@@ -15,7 +15,7 @@
 
 namespace thermedge {
 
-// What a call may ask for besides the result.
+// Extras that a call may ask for besides the result.
 struct DetectRequest {
   Intermediates* intermediates = nullptr;  // filled where given; costs time
   std::stop_token stop;                    // looked at between stages; the error is kCancelled then
@@ -42,8 +42,8 @@ class Detector {
                               const DetectRequest& request = {});
   [[nodiscard]] Result<Detection> detect(const Frame& frame);
 
-  // The second half alone, on somebody else's binary edge map (nonzero = edge). Contrast, z and NFA
-  // are NaN: only a frame tells them.
+  // The second half alone, on a binary edge map of another detector (nonzero = edge). Contrast, z
+  // and NFA are NaN: they need a frame.
   [[nodiscard]] Status trace(ImageView<const std::uint8_t> edge_map, Detection& detection,
                              const DetectRequest& request = {});
   [[nodiscard]] Result<Detection> trace(ImageView<const std::uint8_t> edge_map);

@@ -1,4 +1,4 @@
-// Dense pictures of a result: mask, ids, ranks, distances.
+// Dense pictures of a result: mask, indices, strength, distances.
 #pragma once
 
 #include <cstddef>
@@ -17,28 +17,28 @@ namespace thermedge {
 // 255 on kept edges, 0 elsewhere.
 void draw_mask(const EdgeSet& edges, ImageView<std::uint8_t> mask);
 
-// Edge id + 1 on kept edges, 0 elsewhere (ids beyond 65534 are drawn as 65535).
+// Edge index + 1 on kept edges, 0 elsewhere (indices beyond 65534 are drawn as 65535).
 void draw_labels(const EdgeSet& edges, ImageView<std::uint16_t> labels);
 
 // Strength of all edges, kept or not, as 255 (1) .. 1 (0), 0 elsewhere.
 void draw_strength(const EdgeSet& edges, ImageView<std::uint8_t> strength);
 
-// What a binary map consists of: its edge pixels (nonzero) and the groups of them that touch each
-// other (8-connected). Many groups for few pixels: broken edges or noise. Thread-safe.
+// The parts of a binary map: its edge pixels (nonzero) and the groups of them that touch each other
+// (8-connected). Many groups for few pixels: broken edges or noise. Thread-safe.
 struct MapCount {
   std::size_t edge_pixels = 0;
   std::size_t fragments = 0;
 };
 [[nodiscard]] MapCount count_fragments(ImageView<const std::uint8_t> map);
 
-// Exact Euclidean distance to the kept edges and who is nearest.
+// Exact Euclidean distance to the kept edges, and which edgel is nearest.
 struct DistanceField {
   Image<float> distance_px;     // truncated at max_distance_px; 0 on an edge
   Image<std::int32_t> nearest;  // index of the nearest edgel, -1 beyond max_distance_px
 };
 
 // Exact transform of Felzenszwalb & Huttenlocher (2012) in integers, between pixels: an edgel
-// counts as the pixel that holds it. Of edgels at the same distance the smaller index is the
+// counts as the pixel that holds it. Among edgels at the same distance the smallest index is the
 // nearest one. One object per thread; allocates on the first frame of a size only. Cost: about 1 ms
 // for 382x288.
 class DistanceTransform {

@@ -19,7 +19,7 @@ struct Edgels {
   std::vector<float> magnitude_counts;       // gradient across the edge, counts per px
   std::vector<float> position_sigma_px;      // standard deviation of the position along the normal
   std::vector<std::int32_t> edge;            // index into EdgeSet::edges
-  std::vector<std::int32_t> previous, next;  // edgel before and behind, -1 at an open end
+  std::vector<std::int32_t> previous, next;  // edgel before and after, -1 at an open end
 
   [[nodiscard]] std::size_t size() const { return x.size(); }
   void resize(std::size_t count);  // new edgels are all zero
@@ -111,7 +111,7 @@ struct EdgeSet {
   Edgels edgels;
   std::vector<Edge> edges;
   std::vector<std::uint32_t> corners;     // index within its edge: 0 = first edgel
-  std::vector<std::int32_t> connections;  // ids of connected edges, ascending
+  std::vector<std::int32_t> connections;  // indices of connected edges, ascending
   std::vector<Junction> junctions;        // T-junctions
   std::size_t kept = 0;                   // edges[0 .. kept) are within the budgets
 

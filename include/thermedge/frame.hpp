@@ -9,14 +9,14 @@
 
 namespace thermedge {
 
-// What a source knows about a frame, as bits of Frame::flags.
+// Bits of Frame::flags: facts that a source knows about a frame.
 enum FrameFlag : std::uint32_t {
   kFrameShutter = 1U << 0U,     // the shutter is closed, or has just moved: not the scene
   kFrameAfterLoss = 1U << 1U,   // frames before this one were lost
   kFrameEndsStream = 1U << 2U,  // the last frame of its source
 };
 
-// A view of pixels that somebody else owns, of any row stride, without a copy.
+// A view of pixels that the caller owns, with any row stride, without a copy.
 //   uint8    grey levels, taken as they are (`bits` is 8)
 //   uint16   raw counts; with `bits` = 8 grey levels that were widened
 //   float32  any unit, such as degC; NaN and infinite pixels are no measurement. Everything that is
@@ -42,7 +42,7 @@ struct Frame {
 
   Pixels pixels;
   int bits = 16;  // 8: grey levels, which preset paper does not scale by Algorithm 1; else 16
-  // Of the size of the frame, nonzero where a pixel is a measurement; empty: everywhere. Other
+  // As large as the frame, nonzero where a pixel is a measurement; empty: everywhere. Other
   // pixels take the value of the nearest valid one in their row, and no edge pixel lies on them or
   // beside them.
   ImageView<const std::uint8_t> valid;

@@ -44,7 +44,7 @@ class FrameDenoiser {
   [[nodiscard]] Result<ImageView<const std::uint16_t>> run(const Frame& frame,
                                                            ParallelRunner& runner);
 
-  // What was found about the last frame.
+  // Noise, bad pixels and stripes of the last frame.
   [[nodiscard]] const Corrections& corrections() const { return corrections_; }
 
  private:

@@ -11,7 +11,7 @@
 
 namespace thermedge {
 
-// A rectangle of pixels that somebody else owns. Passed by value; constness sits in `T`.
+// A rectangle of pixels that it does not own. Passed by value; constness sits in `T`.
 // `stride` is the distance between the starts of two rows, in elements. x runs right, y down.
 // Camera buffers pass in through it without a copy.
 template <class T>

@@ -24,7 +24,7 @@
 
 namespace thermedge {
 
-// What only the presets robust and fast do.
+// Stages that only the presets robust and fast have.
 struct RobustOptions {
   OrientedFilterOptions oriented_filter;
   GraphOptions graph;
@@ -34,7 +34,7 @@ struct RobustOptions {
   [[nodiscard]] Status check() const;
 };
 
-// What only preset paper does.
+// Stages that only preset paper has.
 struct PaperOptions {
   GreyScaleOptions grey_scale;
   CannyOptions canny;

@@ -1,4 +1,4 @@
-// What lens and pixel apertures make of a picture: its blur.
+// The blur that lens and pixel apertures give a picture.
 #pragma once
 
 #include <vector>
@@ -20,7 +20,7 @@ class Optics {
   // cut off at the third; 0: none.
   Optics(double blur_px, double airy_px);
 
-  // What the picture must have on each side beyond the pixels, px.
+  // The margin that the picture must have on each side beyond the pixels, px.
   [[nodiscard]] int margin_px() const { return margin_px_; }
 
   // `fine`: sub-pixels of `pixels` and of a margin of margin_px() around it.

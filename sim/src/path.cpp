@@ -78,7 +78,7 @@ Pose drive(const Viewpoint& view, const SceneOptions& options, double seconds) {
     length += norm(way[i] - way[i - 1]);
   }
   const double distance = length * to_and_fro(seconds * view.speed_m_per_s / length);
-  // The mean of what lies a little behind and before turns corners softly.
+  // The mean over positions a little before and after turns corners softly.
   constexpr double kLookM = 0.4;
   const WayPoint here = along(way, distance);
   const Vec3 heading = along(way, std::max(0.0, distance - kLookM)).heading + here.heading +

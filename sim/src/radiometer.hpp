@@ -9,7 +9,7 @@ class RadianceTable;
 // black bodies near 25 degC. const functions are thread-safe.
 class Radiometer {
  public:
-  // What surfaces mirror where their emissivity is below 1.
+  // The temperature that surfaces mirror where their emissivity is below 1.
   explicit Radiometer(double reflected_degc);
 
   // Counts of a surface; temperatures are clamped to what a scene may have, -272..1100 degC.

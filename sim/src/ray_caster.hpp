@@ -55,7 +55,7 @@ class RayCaster {
   [[nodiscard]] const Lens& lens() const { return lens_; }
   [[nodiscard]] const Facets& world() const { return facets_; }
 
-  // What may show near a pixel position, for cast().
+  // Facets that may show near a pixel position, for cast().
   [[nodiscard]] std::span<const std::int16_t> facets_near(Point pixel) const;
   // The nearest hit of the ray (x, y, 1).
   [[nodiscard]] Hit cast(Point ray, std::span<const std::int16_t> among) const;

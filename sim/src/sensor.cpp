@@ -31,7 +31,7 @@ int events_before(const CameraOptions& camera, int frame) {
   return (frame - camera.shutter_frames) / camera.shutter_every;
 }
 
-// Offset of the whole picture after so many events.
+// Offset of the whole picture after a number of events.
 double offset_after(const CameraOptions& camera, std::uint64_t seed, int events) {
   return events == 0 ? 0
                      : camera.shutter_jump_counts *

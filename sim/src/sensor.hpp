@@ -1,4 +1,4 @@
-// What the sensor adds to a clean picture, and when its shutter falls.
+// Noise and patterns that the sensor adds to a clean picture, and when its shutter closes.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,7 @@ class Sensor {
   Sensor(const CameraOptions& camera, std::uint64_t seed);
 
   // Counts of frame `frame`, which is not frozen: gains, fixed pattern, temporal noise, jumps of
-  // the shutter, flickering and dead pixels, rounded to 14 bits and cut off at their ends.
+  // the shutter, flickering and bad pixels, rounded to 14 bits and cut off at their ends.
   void expose(ImageView<const float> clean, int frame, ImageView<std::uint16_t> counts,
               ParallelRunner& runner);
 
@@ -34,7 +34,7 @@ class Sensor {
     double sigma;
     std::size_t size;
     std::vector<double> values{};
-    // What `values` lie between, and which pair of the sequence that is.
+    // The two ends that `values` lie between, and which pair of the sequence that is.
     std::vector<double> from{}, to{};
     double knot = -1;
   };

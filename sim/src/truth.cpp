@@ -166,7 +166,7 @@ struct Step {
   EdgeKind kind;
 };
 
-// What lies on the two sides of an edge's point.
+// Measures the step at a point of an edge from the surfaces on its two sides.
 class StepMeter {
  public:
   StepMeter(const RayCaster& ray_caster, double least_counts, double vignetting)
@@ -288,7 +288,7 @@ void trace(const RayCaster& ray_caster, int id, const StepMeter& step_at,
   }
   Collector collector(id, facets[static_cast<std::size_t>(edge.owners[0])].object, edges);
   for (std::vector<CurvePoint>& run : Tracer(ray_caster, curve).run()) {
-    // A whole ellipse ends where it begins; the point is not repeated, and the run starts behind a
+    // A whole ellipse ends where it begins; the point is not repeated, and the run starts after a
     // gap, so that no edge is cut where the ellipse happens to begin.
     const bool whole = curve.closed && run.front().t == 0 && run.back().t == 1;
     if (whole) {

@@ -25,7 +25,8 @@ std::uint64_t hash(std::string_view text) {
   return value;
 }
 
-// What seeds change about an object: its place, together with its group, and its temperature.
+// The properties of an object that seeds change: its place, together with its group, and its
+// temperature.
 struct Variation {
   Vec3 shift;
   double degc = 0;

@@ -19,7 +19,7 @@ namespace thermedge::detail {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Blocks are filled and read up to a vector behind their last element.
+// Blocks are filled and read up to a vector past their last element.
 constexpr int kBlock = kMostEdgels + 8;
 using Doubles = hn::CappedTag<double, 8>;
 using One = hn::CappedTag<double, 1>;

@@ -1,4 +1,4 @@
-// What lies along and across a run of edgels, in double precision.
+// Samples along and across a run of edgels, in double precision.
 #pragma once
 
 #include <cstdint>

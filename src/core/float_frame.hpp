@@ -1,4 +1,4 @@
-// What the denoisers share: mirrored borders and frames in units of their noise.
+// Shared by the denoisers: mirrored borders and frames in units of their noise.
 #pragma once
 
 #include "thermedge/image.hpp"

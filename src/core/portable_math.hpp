@@ -1,4 +1,4 @@
-// Functions behind filter tables, made of additions, multiplications and divisions alone, so that
+// Functions for filter tables, made of additions, multiplications and divisions alone, so that
 // they give the same bits with every C library.
 #pragma once
 

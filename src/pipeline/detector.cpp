@@ -28,7 +28,7 @@ class SimdRunner final : public ParallelRunner {
   SimdTarget simd_;
 };
 
-// What belongs to a frame before anything is found in it.
+// Clears the result of the frame before.
 void begin(Detection& found, Preset preset, int width, int height) {
   found.preset = preset;
   found.width = width;

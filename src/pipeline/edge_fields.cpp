@@ -138,7 +138,7 @@ void DistanceTransform::search_columns() {
 // Which column is nearest, along one row: the lower envelope of the parabolas
 //   cost(x) = n ((x - column)^2 + distance^2) + edgel,   n > all indices of edgels.
 // The index breaks ties, so no two costs are equal at a pixel, and whole numbers will do: a column
-// to the right is cheaper than another from the first pixel behind the crossing of the parabolas.
+// to the right is cheaper than another from the first pixel past the crossing of the parabolas.
 void DistanceTransform::find_reigns(int y) {
   const ColumnNearest* row = nearest_.row(y);
   const auto height_at_zero = [&](std::int64_t column) {

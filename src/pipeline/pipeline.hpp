@@ -15,7 +15,7 @@
 
 namespace thermedge::detail {
 
-// What a pipeline is called with beside the frame.
+// The other arguments of a pipeline besides the frame.
 struct Call {
   ParallelRunner& runner;
   std::stop_token stop;
@@ -59,10 +59,10 @@ void binarize(ImageView<const std::uint8_t> map, Image<std::uint8_t>& binary);
                                                          ImageView<const std::uint8_t> valid,
                                                          Image<std::uint8_t>& masked);
 
-// An edge map alone tells no contrast.
+// Sets contrast, z and log10_nfa to NaN: an edge map alone has none.
 void forget_contrast(EdgeSet& edges);
 
-// What was measured in counts, in the unit of a float frame.
+// Converts all that was measured in counts into the unit of a float frame.
 void convert_to_frame_units(Detection& found);
 
 }  // namespace thermedge::detail

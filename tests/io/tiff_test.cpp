@@ -190,7 +190,7 @@ TEST(Tiff, ACutRecordingStillHasItsFirstPages) {
     EXPECT_TRUE(error_of(decoded(cut, 1)).starts_with("file: damaged TIFF: "));
   }
   EXPECT_EQ(error_of(decoded(first.substr(0, 6))),
-            "file: damaged TIFF: page 0 lies behind the end of the file");
+            "file: damaged TIFF: page 0 lies past the end of the file");
 }
 
 TEST(Tiff, ACircleOfPagesIsAnError) {

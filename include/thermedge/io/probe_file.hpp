@@ -1,4 +1,4 @@
-// What a recording is like, as text: JSON, and the suggested options as TOML.
+// The properties of a recording as text: JSON, and the suggested options as TOML.
 #pragma once
 
 #include <string>

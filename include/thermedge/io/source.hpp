@@ -45,7 +45,7 @@ class FrameSource {
  public:
   virtual ~FrameSource() = default;
   // Reads the next frame into `frame` (its memory is reused). true: a frame; false: the end. After
-  // an error, the next call goes on behind the bad file.
+  // an error, the next call goes on after the bad file.
   [[nodiscard]] virtual Result<bool> next(SourceFrame& frame) = 0;
   // Number of files or frames there will be, as far as known; 0: not known.
   [[nodiscard]] virtual std::size_t size_hint() const = 0;
@@ -58,7 +58,7 @@ class FrameSource {
 // The kind of a file is found by its content: PNG (grey, or colour without colour), TIFF 8/16 bit
 // grey (uncompressed, LZW, deflate, PackBits; multi-page), PGM 8/16 bit, NPY (uint8, uint16; 2-D,
 // or 3-D as a stack). Files named .raw, and "-", are headerless and need raw_width and raw_height.
-// Errors: nothing matches an input. What is wrong with a file is an error of next().
+// Errors: nothing matches an input. A file that cannot be read is an error of next().
 [[nodiscard]] Result<std::unique_ptr<FrameSource>> open_files(
     const std::vector<std::string>& inputs, const SourceOptions& options);
 

@@ -16,12 +16,12 @@ struct StableGreyScaleOptions {
   double gain = 0.2;
   // The view stays put while the median of the frame is this near to its centre, levels, 0..127.
   double dead_band_levels = 32;
-  // Beyond, the view follows by at most so many levels a frame, 0..255.
+  // Beyond, the view follows by at most this number of levels a frame, 0..255.
   double slew_levels = 1;
   // A scene cut: more than this share of the pixels, 0..1, is clipped ...
   double cut_clipped_share = 0.03;
-  // ... for so many frames in a row, 1..1000, and at most half as much would be clipped with the
-  // view centred on the median. Shorter flashes pass, and leave the view where it was.
+  // ... for this number of frames in a row, 1..1000, and at most half as much would be clipped with
+  // the view centred on the median. Shorter flashes pass, and leave the view where it was.
   int cut_frames = 3;
 };
 

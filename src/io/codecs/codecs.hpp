@@ -18,7 +18,7 @@ namespace thermedge::io {
 
 using Bytes = std::span<const std::byte>;
 
-// What a decoder works on: the bytes, the name for messages, the bounds.
+// The input of a decoder: the bytes, the name for messages, the bounds.
 struct EncodedFile {
   Bytes bytes;
   const std::string& name;

@@ -78,10 +78,10 @@ Error unknown_format(std::span<const std::byte> first_bytes, const std::string& 
   if (first_bytes.empty()) {
     return {ErrorCode::kBadData, name + ": the file is empty"};
   }
-  for (const UnsupportedFormat& stranger : kUnsupportedFormats) {
-    if (has(first_bytes, stranger.at, stranger.bytes)) {
+  for (const UnsupportedFormat& format : kUnsupportedFormats) {
+    if (has(first_bytes, format.at, format.bytes)) {
       return {ErrorCode::kUnsupported,
-              name + ": " + std::string(stranger.name) + "; " + std::string(stranger.advice)};
+              name + ": " + std::string(format.name) + "; " + std::string(format.advice)};
     }
   }
   return {ErrorCode::kUnsupported, name + ": " + std::string(kWhatIsRead)};

@@ -8,7 +8,7 @@
 namespace thermedge::io {
 namespace {
 
-constexpr std::size_t kVersionAt = 6;  // behind "\x93NUMPY"; then a minor version
+constexpr std::size_t kVersionAt = 6;  // after "\x93NUMPY"; then a minor version
 constexpr std::size_t kLengthAt = 8;   // of the header: 2 bytes in version 1, then 4
 
 struct Header {
@@ -255,7 +255,7 @@ std::string encode_npy(const Samples& samples) {
   std::string header = std::string("{'descr': '") + (samples.bits == 16 ? "<u2" : "|u1") +
                        "', 'fortran_order': False, 'shape': (" + std::to_string(samples.height) +
                        ", " + std::to_string(samples.width) + "), }";
-  // The array starts at a multiple of 64 bytes, behind a line end.
+  // The array starts at a multiple of 64 bytes, after a line end.
   constexpr std::size_t kTextAt = kLengthAt + 2;
   header.append(63 - (kTextAt + header.size()) % 64, ' ');
   header += '\n';

@@ -1,4 +1,4 @@
-// Portable graymap: text (P2) or binary (P5) pixels behind a header of three numbers.
+// Portable graymap: text (P2) or binary (P5) pixels after a header of three numbers.
 #include <cctype>
 #include <optional>
 
@@ -51,7 +51,7 @@ class NumberReader {
   }
 
   Bytes bytes_;
-  std::size_t at_ = 2;  // behind "P5" or "P2"
+  std::size_t at_ = 2;  // after "P5" or "P2"
 };
 
 Status read_text_pixels(NumberReader& numbers, std::uint32_t largest, const EncodedFile& file,

@@ -27,7 +27,7 @@ Context make_context(int flags) {
   return png;
 }
 
-// What to say about an error of libspng. Running out of memory is thrown, as everywhere here.
+// The message for an error of libspng. Running out of memory is thrown, as everywhere here.
 const char* message_of(int error) {
   switch (error) {
     case SPNG_EMEM:

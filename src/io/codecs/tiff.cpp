@@ -22,7 +22,7 @@ struct Header {
   bool min_is_white = false;
 };
 
-// What kind of TIFF this is, should it be one that is not read.
+// The kind of a TIFF that is not read; empty where it is read.
 std::string refusal(TIFF* tiff) {
   std::uint16_t channels = 1;
   std::uint16_t bits = 1;
@@ -180,7 +180,7 @@ Status decode_tiff(const EncodedFile& file, std::size_t page, SourceFrame& frame
         return no_such_page(file, page);
       case Link::kOutside:
         return damaged(file, "TIFF",
-                       "page " + std::to_string(before) + " lies behind the end of the file");
+                       "page " + std::to_string(before) + " lies past the end of the file");
       case Link::kCircle:
         return damaged(file, "TIFF", "its pages follow each other in a circle");
     }

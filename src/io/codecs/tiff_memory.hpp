@@ -9,7 +9,7 @@
 
 namespace thermedge::io {
 
-// What libtiff reads from or writes to, and the first error that it reported.
+// The memory that libtiff reads from or writes to, and the first error that it reported.
 struct TiffMemory {
   Bytes input;
   std::string output;

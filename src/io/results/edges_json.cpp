@@ -48,7 +48,7 @@ struct StatusCounts {
   std::size_t weak = 0, insignificant = 0, beyond_budget = 0;
 };
 
-// What was measured on the frame, and what was chosen by it.
+// Figures that were measured on the frame, and the choices that follow from them.
 Json measured(const Detection& detection) {
   const NoiseEstimate& noise = detection.corrections.noise;
   Json json = {{"sigma_counts", rounded(noise.sigma_counts)},

@@ -9,7 +9,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// To six digits behind the point, so that the text does not change with the last bits.
+// To six digits after the point, so that the text does not change with the last bits.
 Json rounded(double value) { return std::round(value * 1e6) / 1e6; }
 
 Json rounded(const std::optional<double>& value) { return value ? rounded(*value) : Json(nullptr); }

@@ -62,7 +62,7 @@ fs::path name_beside(const fs::path& target) {
 }
 
 Status replace(const std::string& path, const fs::path& target, std::string_view bytes) {
-  constexpr int kAttempts = 100;  // names that a killed process may have left behind
+  constexpr int kAttempts = 100;  // names that a killed process may have left
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
     const fs::path beside = name_beside(target);
     OutputFile file(beside, O_CREAT | O_EXCL);

@@ -26,7 +26,7 @@ class InputFile {
   InputFile& operator=(const InputFile&) = delete;
   ~InputFile();
 
-  // Fills `bytes`, waiting for them where need be, and takes none behind them. Gives their number,
+  // Fills `bytes`, waiting for them where need be, and takes none after them. Gives their number,
   // which is less than asked for only at the end of the file.
   [[nodiscard]] Result<std::size_t> read(std::span<std::byte> bytes);
 

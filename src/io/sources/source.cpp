@@ -39,7 +39,7 @@ class PictureSource final : public FrameSource {
       status = decode_picture(bytes_, path_, limits_, page_, frame);
     }
     if (!status) {
-      pages_ = ++page_;  // what is behind a bad page is not tried
+      pages_ = ++page_;  // pages after a bad one are not tried
       return tl::unexpected(status.error());
     }
     label(frame, path_, stem_of(path_), static_cast<std::int64_t>(page_), pages_ > 1);

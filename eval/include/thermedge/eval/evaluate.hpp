@@ -1,4 +1,4 @@
-// A detector's results over a set of frames, judged: one call for everything.
+// A detector's results over a set of frames, evaluated: one call for everything.
 #pragma once
 
 #include <cstddef>
@@ -21,16 +21,16 @@ using Progress = std::function<void(std::size_t done, std::size_t all)>;
 
 struct EvaluationOptions {
   CountOptions count;
-  int thresholds = 99;      // of a sweep over strength maps, 1..254
-  int at = 0;               // 1..255: judge at this threshold only; 0: sweep, but for binary maps
-  int short_px = 10;        // fragments and spurs of fewer pixels are short, 1..10000
+  int thresholds = 99;  // of a sweep over strength maps, 1..254
+  int at = 0;           // 1..255: evaluate at this threshold only; 0: sweep, but for binary maps
+  int short_px = 10;    // fragments and spurs of fewer pixels are short, 1..10000
   double sigma_counts = 0;  // noise of the frames, for recall over contrast; 0: as the results say
   double repeat_reach_px = 1;  // how far from its place a point counts as found again, px, 0..100
   int most_shift_px = 4;       // whole-pixel shifts that are tried between two frames, 0..64
   Progress progress;           // may be empty
 };
 
-// Of results with curves against truth with curves.
+// Figures of results with curves against truth with curves.
 struct CurveFigures {
   Localisation localisation;
   ContrastRecall by_counts;
@@ -62,7 +62,7 @@ struct PerFrame {
   std::size_t most = 0;
 };
 
-// What can be said without truth.
+// Figures that need no truth.
 struct TruthlessEvaluation {
   std::size_t frames = 0;
   int threshold = 0;     // of the maps

@@ -51,7 +51,7 @@ class PixelMatcher {
 
   // Matches the found pixels whose numbers are in `chosen` (rising). Gives the number of pairs.
   std::size_t match(std::span<const std::int32_t> chosen);
-  // Of the last match: whether this one of the chosen pixels has a partner.
+  // Whether this one of the chosen pixels has a partner in the last match.
   [[nodiscard]] bool is_matched(std::int32_t found) const {
     return truth_of_[static_cast<std::size_t>(found)] >= 0;
   }

@@ -10,10 +10,10 @@
 
 namespace thermedge::eval {
 
-// Of one map that is one pixel wide. A fragment is a group of touching pixels (8-connected). A
-// junction is a pixel around which set and unset pixels alternate three times or more; without the
-// junctions, fragments fall into contours. A spur is a contour of fewer than `short_px` pixels that
-// hangs on a junction by one end.
+// The structure of one map whose lines are one pixel wide. A fragment is a group of touching pixels
+// (8-connected). A junction is a pixel around which set and unset pixels alternate three times or
+// more; without the junctions, fragments fall into contours. A spur is a contour of fewer than
+// `short_px` pixels that hangs on a junction by one end.
 struct MapStructure {
   std::vector<std::int32_t> fragments_px;  // pixels of each, in reading order of their first pixel
   std::vector<std::int32_t> contours_px;

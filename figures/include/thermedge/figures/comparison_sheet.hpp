@@ -1,4 +1,4 @@
-// The classical detectors and ours on one frame: the paper's figures 14 and 15.
+// The classical detectors and thermedge on one frame: the paper's figures 14 and 15.
 #pragma once
 
 #include <cstddef>
@@ -18,12 +18,12 @@ namespace thermedge::figures {
 struct ComparisonOptions {
   DetectorOptions detector;
   ClassicalOptions classical;
-  // What runs in front of the classical detectors; they get the 8-bit view of Algorithm 1.
+  // The denoiser before the classical detectors; they get the 8-bit view of Algorithm 1.
   DenoiseMethod classical_denoiser = DenoiseMethod::kNone;
   double panel_width = kPanelWidth;  // about the width of a panel, points
 };
 
-// What one detector made of the frame.
+// The edges that one detector found in the frame.
 struct ComparedMap {
   std::string name;           // of files: "prewitt" ... "canny", "thermedge"
   std::string display;        // for people

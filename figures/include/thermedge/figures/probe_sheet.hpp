@@ -1,4 +1,4 @@
-// What a recording is like, as a picture.
+// The properties of a recording as a picture.
 #pragma once
 
 #include <cstdint>

@@ -42,7 +42,7 @@ struct CameraOptions {
 
   int shutter_every = 0;           // frames from one shutter event to the next, 0..1e6; 0: none
   int shutter_frames = 24;         // length of the freeze, frames, 1..1e6
-  double shutter_jump_counts = 8;  // standard deviation of the jump behind it, counts, 0..5000
+  double shutter_jump_counts = 8;  // standard deviation of the jump after it, counts, 0..5000
 };
 
 enum class PathKind { kHand, kDrive, kPan, kStill };
@@ -77,7 +77,7 @@ struct TrueEdge {
   EdgeKind kind = EdgeKind::kOccluding;
 };
 
-// Of the camera in the world, as OpenCV has it: x right, y down, z forward.
+// The camera in the world, with axes as OpenCV has them: x right, y down, z forward.
 struct Pose {
   Vec3 position_m;
   std::array<double, 4> orientation_xyzw{0, 0, 0, 1};  // turns camera axes into those of the world
@@ -89,7 +89,7 @@ struct Intrinsics {
   double fx_px = 0, fy_px = 0, cx_px = 0, cy_px = 0, k1 = 0, k2 = 0;
 };
 
-// What the shutter did to a frame. Truth is of the frame's own time; a frozen picture is not.
+// The effect of the shutter on a frame. Truth is of the frame's own time; a frozen picture is not.
 struct ShutterState {
   bool frozen = false;     // the picture is that of frame `shows_frame`
   int shows_frame = 0;     // the frame itself where not frozen
@@ -100,12 +100,12 @@ struct TrueFrame {
   int index = 0;
   std::int64_t stamp_ns = 0;
   Image<std::uint16_t> counts;  // as the camera gives them
-  Image<float> clean;           // without noise, pattern and dead pixels, counts
+  Image<float> clean;           // without noise, pattern and bad pixels, counts
   std::vector<TrueEdge> edges;
   Image<std::uint16_t> depth_mm;  // along the optical axis, mm; 0: sky; 65535: that far or farther
   Pose pose;
   Intrinsics intrinsics;
-  std::optional<ShutterState> shutter;  // in frozen frames and in the first frame behind
+  std::optional<ShutterState> shutter;  // in frozen frames and in the first frame after
 };
 
 // Renders the frames of one scene. Keeps what frames have in common, and scratch memory.
