@@ -16,12 +16,56 @@ if(THERMEDGE_SANITIZE)
   target_link_options(thermedge_settings INTERFACE -fsanitize=${THERMEDGE_SANITIZE})
 endif()
 
-# thermedge_room(NAME SOURCES files... [ROOMS rooms...] [LIBRARIES libs...])
+# thermedge_part(NAME KIND room|library|program|tests FOLDER folder [INCLUDE folder]
+#                [PRIVATE folder] [SOURCES files...] [HEADERS files...] [ROOMS parts...]
+#                [LIBRARIES libs...])
+# Notes what tests/rooms checks the sources against, lowest part first. HEADERS are the part's
+# public headers, below INCLUDE/thermedge; PRIVATE is the folder that its private headers are named
+# from, by default FOLDER; ROOMS are the parts whose private headers it may include; LIBRARIES are
+# the libraries of this project whose public headers it may include.
+function(thermedge_part name)
+  cmake_parse_arguments(ARG "" "KIND;FOLDER;INCLUDE;PRIVATE"
+    "SOURCES;HEADERS;ROOMS;LIBRARIES" ${ARGN})
+  if(NOT ARG_PRIVATE)
+    set(ARG_PRIVATE ${ARG_FOLDER})
+  endif()
+  set_property(GLOBAL APPEND PROPERTY THERMEDGE_PARTS ${name})
+  foreach(key KIND FOLDER INCLUDE PRIVATE SOURCES HEADERS ROOMS LIBRARIES)
+    set_property(GLOBAL PROPERTY THERMEDGE_PART_${name}_${key} "${ARG_${key}}")
+  endforeach()
+endfunction()
+
+# Writes the parts noted so far as JSON; folders are relative to the repository, sources to their
+# part's folder.
+function(thermedge_write_parts file)
+  get_property(parts GLOBAL PROPERTY THERMEDGE_PARTS)
+  set(entries "")
+  foreach(part IN LISTS parts)
+    set(fields "\"name\": \"${part}\"")
+    foreach(key KIND FOLDER INCLUDE PRIVATE SOURCES HEADERS ROOMS LIBRARIES)
+      get_property(values GLOBAL PROPERTY THERMEDGE_PART_${part}_${key})
+      string(TOLOWER ${key} field)
+      if(NOT key MATCHES "^(KIND|FOLDER|INCLUDE|PRIVATE)$")
+        list(TRANSFORM values REPLACE "^(.+)$" "\"\\1\"")
+        list(JOIN values ", " values)
+        string(APPEND fields ",\n  \"${field}\": [${values}]")
+      else()
+        string(APPEND fields ",\n  \"${field}\": \"${values}\"")
+      endif()
+    endforeach()
+    list(APPEND entries "{${fields}}")
+  endforeach()
+  list(JOIN entries ",\n" entries)
+  file(WRITE ${file} "[${entries}]\n")
+endfunction()
+
+# thermedge_room(NAME SOURCES files... HEADERS files... [ROOMS rooms...] [LIBRARIES libs...])
 # A room is a folder of src/ with one object library. Its include path is the public headers, its
-# own folder, and the folders of the rooms that it names; these name theirs for themselves. The
-# list of rooms is what tests/rooms checks the sources against.
+# own folder, and the folders of the rooms that it names; these name theirs for themselves. HEADERS
+# are the public headers that the room owns, below include/thermedge/. The list of rooms is what
+# tests/rooms checks the sources against.
 function(thermedge_room room)
-  cmake_parse_arguments(ARG "" "" "SOURCES;ROOMS;LIBRARIES" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "SOURCES;HEADERS;ROOMS;LIBRARIES" ${ARGN})
   set(target thermedge_room_${room})
   add_library(${target} OBJECT ${ARG_SOURCES})
   target_include_directories(${target} PUBLIC
@@ -32,15 +76,16 @@ function(thermedge_room room)
   target_link_libraries(${target} PRIVATE ${rooms})
   set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON)
   set_property(GLOBAL APPEND PROPERTY THERMEDGE_ROOMS ${room})
-  set_property(GLOBAL PROPERTY THERMEDGE_ROOMS_OF_${room} "${ARG_ROOMS}")
+  thermedge_part(${room} KIND room FOLDER src/${room} INCLUDE include
+    SOURCES ${ARG_SOURCES} HEADERS ${ARG_HEADERS} ROOMS ${ARG_ROOMS})
 endfunction()
 
-# thermedge_library(NAME SOURCES files... [ROOMS rooms...] [PUBLIC libs...] [PRIVATE libs...]
-#                   [INCLUDE folder])
+# thermedge_library(NAME SOURCES files... [HEADERS files...] [ROOMS rooms...] [PUBLIC libs...]
+#                   [PRIVATE libs...] [INCLUDE folder])
 # A library that is installed: shared or static as BUILD_SHARED_LIBS says. ROOMS are those whose
 # private headers it may include; INCLUDE holds its public headers where they are not in include/.
 function(thermedge_library name)
-  cmake_parse_arguments(ARG "" "INCLUDE" "SOURCES;ROOMS;PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(ARG "" "INCLUDE" "SOURCES;HEADERS;ROOMS;PUBLIC;PRIVATE" ${ARGN})
   add_library(${name} ${ARG_SOURCES})
   target_include_directories(${name} PUBLIC
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>
@@ -61,4 +106,17 @@ function(thermedge_library name)
   target_link_libraries(${name} PUBLIC ${ARG_PUBLIC}
     PRIVATE $<BUILD_INTERFACE:thermedge_settings> ${ARG_PRIVATE})
   add_library(thermedge::${name} ALIAS ${name})
+  if(name MATCHES "^thermedge_(.*)$")
+    set(part ${CMAKE_MATCH_1})
+    file(RELATIVE_PATH folder ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR})
+    set(include include)
+    set(private ${folder})
+    if(ARG_INCLUDE)
+      set(include ${folder}/${ARG_INCLUDE})
+      set(private ${folder}/src)
+    endif()
+    thermedge_part(${part} KIND library FOLDER ${folder} INCLUDE ${include} PRIVATE ${private}
+      SOURCES ${ARG_SOURCES} HEADERS ${ARG_HEADERS} ROOMS ${ARG_ROOMS}
+      LIBRARIES ${ARG_PUBLIC} ${ARG_PRIVATE})
+  endif()
 endfunction()

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bench/random_scene.hpp"
-#include "bench/test_frames.hpp"
+#include "random_scene.hpp"
+#include "test_frames.hpp"
 #include "thermedge/stages/noise.hpp"
 
 namespace thermedge::bench {

@@ -13,7 +13,7 @@
 
 #include "bm3d_group_simd.hpp"
 #include "bm3d_match_simd.hpp"
-#include "denoise/bm3d_reference.hpp"
+#include "bm3d_reference.hpp"
 #include "support/images.hpp"
 
 namespace thermedge {

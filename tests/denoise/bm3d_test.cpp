@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "denoise/bm3d_reference.hpp"
+#include "bm3d_reference.hpp"
 #include "support/images.hpp"
 #include "thermedge/options.hpp"
 #include "thermedge/parallel_runner.hpp"
