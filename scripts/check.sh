@@ -4,7 +4,7 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 
 echo "== format"
-git ls-files '*.cpp' '*.hpp' | xargs clang-format --dry-run --Werror
+git ls-files '*.cpp' '*.hpp' | xargs clang-format-14 --dry-run --Werror
 
 echo "== static analysis"
 cmake --preset release >/dev/null
