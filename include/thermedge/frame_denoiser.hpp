@@ -20,7 +20,9 @@ namespace thermedge {
 struct FrameDenoiserOptions {
   BadPixelOptions bad_pixels;
   StripeOptions stripes;
-  DenoiseOptions denoise = {.bm3d = {.profile = Bm3dProfile::kQuality}};
+  DenoiseOptions denoise;
+
+  FrameDenoiserOptions() { denoise.bm3d.profile = Bm3dProfile::kQuality; }
 
   // Fails with one line that names the option: out of its range, or at odds with another one.
   [[nodiscard]] Status check() const;

@@ -10,7 +10,9 @@
 namespace thermedge::detail {
 
 template <class T>
-concept ReportsMemory = requires(const T& object) { object.memory_bytes(); };
+concept ReportsMemory = requires(const T& object) {
+  object.memory_bytes();
+};
 
 template <class T>
 [[nodiscard]] std::size_t memory_of_one(const Image<T>& image) {

@@ -47,6 +47,12 @@ Status check_unused(DenoiseMethod owner, DenoiseMethod chosen, const Group& opti
 
 Status check_denoisers(const DenoiseOptions& options, const DenoiseOptions& of_preset) {
   const DenoiseMethod chosen = options.method;
+  const bool is_told_noise = chosen == DenoiseMethod::kNlm || chosen == DenoiseMethod::kBm3d;
+  if (!is_told_noise && options.sigma_scale != of_preset.sigma_scale) {
+    return failure(ErrorCode::kInvalidArgument,
+                   "denoise.sigma_scale is used with denoise.method = \"nlm\" or \"bm3d\" only",
+                   "denoise.sigma_scale");
+  }
   return check_unused(DenoiseMethod::kGaussian, chosen, options.gaussian, of_preset.gaussian)
       .and_then(
           [&] { return check_unused(DenoiseMethod::kNlm, chosen, options.nlm, of_preset.nlm); })

@@ -22,6 +22,13 @@ class PaperPipeline final : public Pipeline {
   Status detect(const Frame& frame, const Call& call, Detection& found) override;
   Status trace(ImageView<const std::uint8_t> edge_map, const Call& call, Detection& found) override;
 
+  [[nodiscard]] std::size_t memory_bytes() const override {
+    return memory_of(preprocessor_, denoiser_, canny_, tracer_, linker_, corner_finder_, scorer_,
+                     selector_, budgets_, levels_, denoised_, masked_, contours_.points,
+                     contours_.items, linked_.contours.points, linked_.contours.items,
+                     linked_.links, corners_.indices, corners_.ranges);
+  }
+
  private:
   Status scale(ImageView<const std::uint16_t> counts, int bits);
   Status denoise(int bits, ParallelRunner& runner, Detection& found);

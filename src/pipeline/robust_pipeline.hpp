@@ -60,6 +60,14 @@ class RobustPipeline final : public Pipeline {
   Status detect(const Frame& frame, const Call& call, Detection& found) override;
   Status trace(ImageView<const std::uint8_t> edge_map, const Call& call, Detection& found) override;
 
+  [[nodiscard]] std::size_t memory_bytes() const override {
+    return memory_of(preprocessor_, denoiser_, filter_, graph_, gap_closer_, corner_finder_,
+                     scorer_, selector_, budgets_, sample_, denoised_, masked_,
+                     traced_.contours.points, traced_.contours.items, eligible_,
+                     linked_.contours.points, linked_.contours.items, linked_.links,
+                     corners_.indices, corners_.ranges);
+  }
+
  private:
   void measure_noise_scale(Detection& found);
   [[nodiscard]] double measure_range();

@@ -233,7 +233,7 @@ TEST(ContourTracer, ShortCurvesAreDropped) {
 TEST(ContourTracer, TheShortestCurveOfAFrameOfOddSize) {
   ContourOptions options;
   options.min_component_px = 0;
-  const auto line = straight({2, 2}, {6, 2});                           // 5 pixels
+  const auto line = straight({2, 2}, {6, 2});                        // 5 pixels
   EXPECT_EQ(trace(map_of(line, 60, 64), options).items.size(), 1U);  // > 124 / 25 = 4.96
   EXPECT_EQ(trace(map_of(line, 60, 65), options).items.size(), 0U);  // = 125 / 25
 }

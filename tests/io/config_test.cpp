@@ -76,6 +76,8 @@ INSTANTIATE_TEST_SUITE_P(
                   "bm3d"},
         BadConfig{"preset = \"magic\"\n",
                   "robot.toml: preset = 'magic' is none of robust, fast, paper"},
+        BadConfig{"preset = 3\n",
+                  "robot.toml: preset should be one of robust, fast, paper in quotes"},
         BadConfig{"canny = 3\n", "robot.toml: line 1: canny should be a table of options"}));
 
 TEST(Config, NamesTheLineOfWhatIsNotToml) {

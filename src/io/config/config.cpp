@@ -347,6 +347,10 @@ Status parse_config(std::string_view toml, const std::string& name, PresetChoice
   try {
     const toml::table table = toml::parse(toml, name);
     DetectorOptions changed = options;
+    if (table.contains("preset") && !table["preset"].is_string()) {
+      return failure(ErrorCode::kInvalidArgument,
+                     name + ": preset should be one of " + list_names(kPresets) + " in quotes");
+    }
     if (const auto chosen = table["preset"].value<std::string_view>()) {
       Preset preset = options.preset();
       if (Status status = assign_enum("preset", *chosen, kPresets, preset); !status) {

@@ -57,6 +57,9 @@ Json measured(const Detection& detection) {
   if (detection.unit_counts > 0) {
     json["range_counts"] = rounded(detection.range_counts);
     json["unit_counts"] = rounded(detection.unit_counts);
+    json["false_alarm_model"] = detection.no_false_alarm_model.empty()
+                                    ? std::string_view("measured")
+                                    : detection.no_false_alarm_model;
     json["kernel_px"] = {rounded(detection.kernel_px.across_px),
                          rounded(detection.kernel_px.along_px)};
   }
@@ -101,9 +104,6 @@ std::string edges_to_json(const Detection& detection, const std::string& source)
                          {"stats",
                           {{"ms", to_json(detection.times)},
                            {"measured", measured(detection)},
-                           {"false_alarm_model", detection.no_false_alarm_model.empty()
-                                                     ? std::string_view("measured")
-                                                     : detection.no_false_alarm_model},
                            {"edges_found", set.edges.size()},
                            {"edges_dropped", to_json(count_statuses(set))},
                            {"bad_pixels", detection.corrections.bad_pixels.size()},
