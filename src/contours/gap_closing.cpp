@@ -17,14 +17,7 @@ using detail::contour_of;
 using detail::pixel_of;
 
 constexpr std::int32_t kNone = -1;
-constexpr int kTipPixels = 10;   // that tell the direction of an end
-constexpr double kSidePx = 2;    // how far from a bridge its contrast is taken
-constexpr double kUnseenPx = 2;  // bridges up to this need no contrast
-constexpr double kTurnCost = 2;  // of a bridge that turns by 90 degrees, in its lengths
-constexpr int kTipReach = 4;     // a curve met this near to its end is met at its end
-constexpr double kOwnGaps = 4;   // so many gaps along its own curve an end may be bridged to it
 constexpr double kNoWay = 1e9;
-constexpr double kStepPx = 0.5;  // between samples along a bridge
 
 double bilinear(ImageView<const float> frame, double x, double y) {
   x = std::clamp(x, 0.0, static_cast<double>(frame.width() - 1));
@@ -41,9 +34,10 @@ double bilinear(ImageView<const float> frame, double x, double y) {
 }
 
 // The right side of a point over its left one, seen in the direction (x, y).
-double step_across(ImageView<const float> frame, double at_x, double at_y, double x, double y) {
-  return bilinear(frame, at_x - kSidePx * y, at_y + kSidePx * x) -
-         bilinear(frame, at_x + kSidePx * y, at_y - kSidePx * x);
+double step_across(ImageView<const float> frame, double side_px, double at_x, double at_y, double x,
+                   double y) {
+  return bilinear(frame, at_x - side_px * y, at_y + side_px * x) -
+         bilinear(frame, at_x + side_px * y, at_y - side_px * x);
 }
 
 }  // namespace
@@ -161,10 +155,11 @@ GapCloser::Tip GapCloser::tip_of(const ContourSet& contours, std::int32_t end,
   const auto at = [&](int i) {
     return pixels[static_cast<std::size_t>(end % 2 == 0 ? i : last - i)];
   };
-  const int back = std::min(kTipPixels, last);
+  const int back = std::min(tuning_.tip_pixels, last);
   Tip tip{at(0), direction(at(back), at(0)), 0};
   for (int i = 1; i <= back; ++i) {
-    tip.contrast += step_across(frame, at(i).x, at(i).y, tip.ahead.x, tip.ahead.y) / back;
+    tip.contrast +=
+        step_across(frame, tuning_.side_px, at(i).x, at(i).y, tip.ahead.x, tip.ahead.y) / back;
   }
   return tip;
 }
@@ -177,6 +172,8 @@ std::optional<GapCloser::Bridge> GapCloser::find_target(const Tip& tip, std::int
   const std::int32_t own_place = place_(tip.at.x, tip.at.y);
   const std::int32_t* owner = &owner_(tip.at.x, tip.at.y);
   const auto reach = static_cast<std::int32_t>(options_.gap_px);
+  const double turn_cost = tuning_.turn_cost;
+  const double own_way = tuning_.own_gaps * options_.gap_px;
   const bool inside = tip.at.x >= reach && tip.at.y >= reach && tip.at.x < owner_.width() - reach &&
                       tip.at.y < owner_.height() - reach;
   Bridge best{kNoWay, end, {}, kNone, std::nullopt, std::abs(tip.contrast)};
@@ -199,9 +196,8 @@ std::optional<GapCloser::Bridge> GapCloser::find_target(const Tip& tip, std::int
       continue;  // before the division, as most are
     }
     const double cosine = ahead / unit;
-    const bool own_tip =
-        is_own(end, to) && std::abs(place_(to.x, to.y) - own_place) <= kOwnGaps * options_.gap_px;
-    const double cost = length * (1 + kTurnCost * (1 - cosine));
+    const bool own_tip = is_own(end, to) && std::abs(place_(to.x, to.y) - own_place) <= own_way;
+    const double cost = length * (1 + turn_cost * (1 - cosine));
     if (cosine >= least_cosine && !own_tip && is_better(cost, to)) {
       best.cost = cost;
       best.to = to;
@@ -240,7 +236,7 @@ void GapCloser::meet_end(const ContourSet& contours, ImageView<const float> fram
   for (const std::int32_t other : {2 * owner, 2 * owner + 1}) {
     const Pixel at = pixel_of(contours, other);
     if (other == bridge.end || !chains_.is_free(other) ||
-        squared_distance(at, bridge.to) > kTipReach * kTipReach) {
+        squared_distance(at, bridge.to) > tuning_.tip_reach_px * tuning_.tip_reach_px) {
       continue;
     }
     bridge.to = at;
@@ -261,14 +257,13 @@ void GapCloser::meet_end(const ContourSet& contours, ImageView<const float> fram
 
 // Where what two ends head for is the corner of an outline: ahead of both, no farther than a gap.
 std::optional<Pixel> GapCloser::corner_of(const Tip& a, const Tip& b) const {
-  constexpr double kLeastSine = 0.4;  // of the angle at the corner
   const auto cross = [](const Vector& p, const Vector& q) { return p.x * q.y - p.y * q.x; };
   const double sine = cross(a.ahead, b.ahead);
   const Vector between{static_cast<double>(b.at.x - a.at.x), static_cast<double>(b.at.y - a.at.y)};
   const double from_a = cross(between, b.ahead) / sine;
   const double from_b = cross(between, a.ahead) / sine;
   const auto is_near = [&](double way) { return way >= 0 && way <= options_.gap_px; };
-  if (std::abs(sine) < kLeastSine || !is_near(from_a) || !is_near(from_b)) {
+  if (std::abs(sine) < tuning_.least_corner_sine || !is_near(from_a) || !is_near(from_b)) {
     return std::nullopt;
   }
   const Pixel corner{a.at.x + static_cast<int>(std::lround(from_a * a.ahead.x)),
@@ -280,15 +275,16 @@ std::optional<Pixel> GapCloser::corner_of(const Tip& a, const Tip& b) const {
 
 bool GapCloser::step_goes_on(const Tip& tip, Pixel to, ImageView<const float> frame) const {
   const double length = std::sqrt(static_cast<double>(squared_distance(tip.at, to)));
-  if (length <= kUnseenPx) {
+  if (length <= tuning_.unseen_px) {
     return true;
   }
   const Vector way = direction(tip.at, to);
   double step = 0;
-  const int samples = std::max(static_cast<int>((length - 1) / kStepPx), 1);
+  const int samples = std::max(static_cast<int>((length - 1) / tuning_.step_px), 1);
   for (int i = 1; i <= samples; ++i) {
-    const double along = kStepPx * i;
-    step += step_across(frame, tip.at.x + along * way.x, tip.at.y + along * way.y, way.x, way.y);
+    const double along = tuning_.step_px * i;
+    step += step_across(frame, tuning_.side_px, tip.at.x + along * way.x, tip.at.y + along * way.y,
+                        way.x, way.y);
   }
   const double same_side = tip.contrast < 0 ? -step : step;
   return same_side > 0 &&

@@ -17,7 +17,9 @@ const double kCut = std::sqrt(8.0);
 
 }  // namespace
 
-int BilateralFilter::radius() const { return static_cast<int>(std::ceil(1.6 * options_.space_px)); }
+int BilateralFilter::radius() const {
+  return static_cast<int>(std::ceil(tuning_.reach_sigmas * options_.space_px));
+}
 
 void BilateralFilter::prepare(int width, int height) {
   const int reach = radius();

@@ -14,7 +14,8 @@ namespace thermedge::detail {
 // Rows first, then columns (Pham & van Vliet 2005).
 class BilateralFilter {
  public:
-  explicit BilateralFilter(const BilateralOptions& options) : options_(options) {}
+  explicit BilateralFilter(const BilateralOptions& options, const BilateralTuning& tuning = {})
+      : options_(options), tuning_(tuning) {}
 
   // For frames of this size; run does it otherwise.
   void prepare(int width, int height);
@@ -31,6 +32,7 @@ class BilateralFilter {
   [[nodiscard]] int radius() const;
 
   BilateralOptions options_;
+  BilateralTuning tuning_;
   std::vector<float> weights_;
   Image<float> padded_, rows_, result_;
 };

@@ -33,9 +33,10 @@ int continued(int side, int unit) {
 
 }  // namespace
 
-Bm3dSettings bm3d_settings(const Bm3dOptions& options) {
+Bm3dSettings bm3d_settings(const Bm3dOptions& options, const Bm3dTuning& tuning) {
   Bm3dSettings settings;
   settings.options = options;
+  settings.tuning = tuning;
   switch (options.profile) {
     case Bm3dProfile::kQuality:
       settings.step_px = 2;
@@ -53,7 +54,8 @@ Bm3dSettings bm3d_settings(const Bm3dOptions& options) {
 }
 
 Bm3d::Bm3d(const Bm3dSettings& settings)
-    : settings_(settings), pattern_(settings.search_radius_px, settings.options.adjacent_blocks) {
+    : settings_(settings),
+      pattern_(settings.search_radius_px, settings.options.adjacent_blocks, settings.tuning) {
   const double beta = settings.options.kaiser_beta;
   const double beta_squared = beta * beta;
   for (int i = 0; i < kBlockPx; ++i) {

@@ -20,12 +20,13 @@ struct StageSettings {
 // What a profile stands for.
 struct Bm3dSettings {
   Bm3dOptions options;
+  Bm3dTuning tuning;
   int step_px = 4;            // distance of reference blocks: 1, 2, 4 or 8
   int search_radius_px = 16;  // largest displacement of matched blocks, 4..kLargestSearchRadius
   StageSettings hard;
   StageSettings wiener;
 };
-[[nodiscard]] Bm3dSettings bm3d_settings(const Bm3dOptions& options);
+[[nodiscard]] Bm3dSettings bm3d_settings(const Bm3dOptions& options, const Bm3dTuning& tuning = {});
 
 // Both stages do the same: match blocks on a guide (the frame itself, then the first estimate),
 // filter each group, add the blocks up. Reference blocks are cut into bands of rows; each band has

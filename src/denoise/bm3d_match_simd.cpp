@@ -398,15 +398,13 @@ HWY_EXPORT(quantise_row);
 HWY_EXPORT(begin_pairs);
 HWY_EXPORT(match_row);
 
-SearchPattern::SearchPattern(int radius_px, bool with_adjacent) : radius_px_(radius_px) {
-  constexpr int kDenseRadius = 6;
-  constexpr int kDenseClassPx = 2;
-  constexpr int kSparseClassPx = 4;
+SearchPattern::SearchPattern(int radius_px, bool with_adjacent, const Bm3dTuning& tuning)
+    : radius_px_(radius_px) {
   // Squares of displacements around the one in the middle, which is narrower or wider by a pixel,
   // so that a mirrored pattern has mirrored classes. The middle one of the dense classes holds the
   // reference block alone, or also the blocks adjacent to it, which then never join its group.
   const auto place_of = [&](int displacement, int class_px) {
-    const bool is_narrow = class_px == kSparseClassPx || with_adjacent;
+    const bool is_narrow = class_px == tuning.sparse_class_px || with_adjacent;
     const int place = (std::abs(displacement) + (is_narrow ? 1 : 0)) / class_px;
     return radius_px + (displacement < 0 ? -place : place);
   };
@@ -416,11 +414,11 @@ SearchPattern::SearchPattern(int radius_px, bool with_adjacent) : radius_px_(rad
   for (int dy = -radius_px; dy <= radius_px; ++dy) {
     row_begin_.push_back(static_cast<int>(candidates_.size()));
     for (int dx = -radius_px; dx <= radius_px; ++dx) {
-      const bool dense = std::max(std::abs(dx), std::abs(dy)) <= kDenseRadius;
+      const bool dense = std::max(std::abs(dx), std::abs(dy)) <= tuning.dense_radius_px;
       if (dx * dx + dy * dy > radius_px * radius_px || (!dense && (dx + dy) % 2 != 0)) {
         continue;
       }
-      const int class_px = dense ? kDenseClassPx : kSparseClassPx;
+      const int class_px = dense ? tuning.dense_class_px : tuning.sparse_class_px;
       const int place = place_of(dy, class_px) * side + place_of(dx, class_px);
       int& number = numbers[static_cast<std::size_t>(2 * place + (dense ? 1 : 0))];
       if (number < 0) {

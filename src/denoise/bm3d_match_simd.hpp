@@ -8,6 +8,7 @@
 
 #include "thermedge/image.hpp"
 #include "thermedge/memory.hpp"
+#include "thermedge/stages/denoiser.hpp"
 
 namespace thermedge::detail {
 
@@ -49,7 +50,7 @@ class SearchPattern {
   static constexpr int kOctants = 8;
 
   // `with_adjacent`: blocks displaced by a pixel may join a group.
-  SearchPattern(int radius_px, bool with_adjacent);
+  SearchPattern(int radius_px, bool with_adjacent, const Bm3dTuning& tuning = {});
 
   [[nodiscard]] int radius_px() const { return radius_px_; }
   [[nodiscard]] int classes() const { return classes_; }

@@ -81,7 +81,13 @@ void round_to_counts(ImageView<const float> in, ImageView<std::uint16_t> out) {
 }
 
 struct Denoiser::Impl {
-  explicit Impl(const DenoiseOptions& chosen) : options(chosen), options_status(chosen.check()) {}
+  Impl(const DenoiseOptions& chosen, const DenoiseTuning& tuning)
+      : options(chosen),
+        options_status(chosen.check()),
+        gaussian(chosen.gaussian, tuning.gaussian),
+        nlm(chosen.nlm, tuning.nlm),
+        bm3d(detail::bm3d_settings(chosen.bm3d, tuning.bm3d)),
+        bilateral(chosen.bilateral, tuning.bilateral) {}
 
   // `burden`: see run_measured.
   Status run(ImageView<const float> in, double sigma, double burden, ImageView<float> out,
@@ -183,14 +189,15 @@ struct Denoiser::Impl {
 
   DenoiseOptions options;
   Status options_status;
-  detail::GaussianFilter gaussian{options.gaussian};
-  detail::NonLocalMeans nlm{options.nlm};
-  detail::Bm3d bm3d{detail::bm3d_settings(options.bm3d)};
-  detail::BilateralFilter bilateral{options.bilateral};
+  detail::GaussianFilter gaussian;
+  detail::NonLocalMeans nlm;
+  detail::Bm3d bm3d;
+  detail::BilateralFilter bilateral;
   detail::Detrender detrend;
 };
 
-Denoiser::Denoiser(const DenoiseOptions& options) : impl_(std::make_unique<Impl>(options)) {}
+Denoiser::Denoiser(const DenoiseOptions& options, const DenoiseTuning& tuning)
+    : impl_(std::make_unique<Impl>(options, tuning)) {}
 Denoiser::Denoiser(Denoiser&&) noexcept = default;
 Denoiser& Denoiser::operator=(Denoiser&&) noexcept = default;
 Denoiser::~Denoiser() = default;

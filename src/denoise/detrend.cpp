@@ -3,14 +3,8 @@
 #include <cstddef>
 
 namespace thermedge::detail {
-namespace {
-
-constexpr int kBlock = 8;
-
-}  // namespace
-
 void Detrender::prepare(int width, int height) {
-  blocks_.resize(width / kBlock, height / kBlock);
+  blocks_.resize(width / kBlockPx, height / kBlockPx);
   slopes_.reserve(blocks_.size());
   distances_.reserve(blocks_.size());
   columns_.resize(static_cast<std::size_t>(width));
@@ -20,29 +14,29 @@ void Detrender::prepare(int width, int height) {
 void Detrender::measure(ImageView<const float> frame) {
   prepare(frame.width(), frame.height());
   fill_pixels(blocks_.view(), 0.0);
-  const int left = (frame.width() - kBlock * blocks_.width()) / 2;
-  const int top = (frame.height() - kBlock * blocks_.height()) / 2;
-  for (int y = 0; y < kBlock * blocks_.height(); ++y) {
+  const int left = (frame.width() - kBlockPx * blocks_.width()) / 2;
+  const int top = (frame.height() - kBlockPx * blocks_.height()) / 2;
+  for (int y = 0; y < kBlockPx * blocks_.height(); ++y) {
     const float* row = frame.row(top + y) + left;
-    double* sums = blocks_.row(y / kBlock);
-    for (int x = 0; x < kBlock * blocks_.width(); ++x) {
-      sums[x / kBlock] += row[x];
+    double* sums = blocks_.row(y / kBlockPx);
+    for (int x = 0; x < kBlockPx * blocks_.width(); ++x) {
+      sums[x / kBlockPx] += row[x];
     }
   }
   const auto add_slope = [&](int place, double difference) {
-    slopes_.push_back({1.0 * place, difference / (kBlock * kBlock * kBlock), 1});
+    slopes_.push_back({1.0 * place, difference / (kBlockPx * kBlockPx * kBlockPx), 1});
   };
   slopes_.clear();
   for (int y = 0; y < blocks_.height(); ++y) {
     for (int x = 1; x < blocks_.width(); ++x) {
-      add_slope(left + kBlock * x, blocks_(x, y) - blocks_(x - 1, y));
+      add_slope(left + kBlockPx * x, blocks_(x, y) - blocks_(x - 1, y));
     }
   }
   fill(robust_line(slopes_, distances_), columns_);
   slopes_.clear();
   for (int y = 1; y < blocks_.height(); ++y) {
     for (int x = 0; x < blocks_.width(); ++x) {
-      add_slope(top + kBlock * y, blocks_(x, y) - blocks_(x, y - 1));
+      add_slope(top + kBlockPx * y, blocks_(x, y) - blocks_(x, y - 1));
     }
   }
   fill(robust_line(slopes_, distances_), rows_);

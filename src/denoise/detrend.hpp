@@ -12,10 +12,14 @@ namespace thermedge::detail {
 
 // A parabola along the columns and one along the rows: what a lens darker towards its corners adds,
 // or a wall that grows warmer evenly. Fitted to the differences between the means of neighbouring
-// blocks of 8x8 pixels, robustly, so that objects do not matter. Denoisers that shrink small
+// blocks of pixels, robustly, so that objects do not matter. Denoisers that shrink small
 // contrasts make terraces of such a slope, whose edges look real.
 class Detrender {
  public:
+  // Side of a block: a larger one averages more noise, a smaller one sees small objects apart from
+  // the background. A constant, as every pixel is divided by it.
+  static constexpr int kBlockPx = 8;
+
   void prepare(int width, int height);
   void measure(ImageView<const float> frame);
   // `out` may be `in`.

@@ -18,14 +18,14 @@ int tasks(int height) { return (height + kRowsPerTask - 1) / kRowsPerTask; }
 }  // namespace
 
 int GaussianFilter::radius() const {
-  return options_.sigma_px == 0 ? kPaperKernelRadius
-                                : static_cast<int>(std::ceil(4 * options_.sigma_px));
+  return options_.sigma_px == 0
+             ? kPaperKernelRadius
+             : static_cast<int>(std::ceil(tuning_.cutoff_sigmas * options_.sigma_px));
 }
 
 void GaussianFilter::make_weights(double share) {
-  constexpr double kNarrowestPx = 0.1;  // as good as nothing
   const auto reach = static_cast<std::size_t>(radius());
-  const double sigma_px = std::max(share * options_.sigma_px, kNarrowestPx);
+  const double sigma_px = std::max(share * options_.sigma_px, tuning_.narrowest_px);
   const double scale = -0.5 / (sigma_px * sigma_px);
   double sum = 1;
   for (std::size_t i = 1; i <= reach; ++i) {

@@ -11,7 +11,8 @@ namespace thermedge::detail {
 
 class GaussianFilter {
  public:
-  explicit GaussianFilter(const GaussianOptions& options) : options_(options) {}
+  explicit GaussianFilter(const GaussianOptions& options, const GaussianTuning& tuning = {})
+      : options_(options), tuning_(tuning) {}
 
   // For frames of this size; run does it otherwise.
   void prepare(int width, int height);
@@ -28,6 +29,7 @@ class GaussianFilter {
   void filter_row(int y, float* scratch, float* more_scratch, float* result) const;
 
   GaussianOptions options_;
+  GaussianTuning tuning_;
   std::vector<float> weights_;  // of the distances 0, 1, 2 ...; their sum over both sides is 1
   Image<float> padded_;         // the frame with mirrored margins of the kernel's radius
   Image<float> rows_;           // scratch of the tasks

@@ -14,10 +14,9 @@ constexpr int kRowsPerTask = 48;
 int tasks_for(int rows) { return (rows + kRowsPerTask - 1) / kRowsPerTask; }
 
 // Distances are 16-bit sums that stop at their largest value, so levels are as fine as lets that
-// value stand for a weight of e^-16, which is as good as none.
-double levels_per_sigma(double patch_weight, double h) {
-  constexpr double kNegligible = 16;
-  return std::sqrt(kLargestDistance / (patch_weight * (2 + kNegligible * h * h)));
+// value stand for a weight of e^-negligible_exponent.
+double levels_per_sigma(double patch_weight, double h, double negligible_exponent) {
+  return std::sqrt(kLargestDistance / (patch_weight * (2 + negligible_exponent * h * h)));
 }
 
 }  // namespace
@@ -52,7 +51,8 @@ void NonLocalMeans::run(ImageView<const float> in, const NoiseUnits& units, Imag
                         ParallelRunner& runner) {
   const double half = nlm_patch_half(options_.patch_px);
   const double patch_weight = half * half * half * half;
-  const double levels = levels_per_sigma(patch_weight, options_.h_over_sigma);
+  const double levels =
+      levels_per_sigma(patch_weight, options_.h_over_sigma, tuning_.negligible_exponent);
   prepare(in.width(), in.height());
   pad(in, units, levels, runner);
   const int box_rows = nlm_box_rows(kRowsPerTask, options_.patch_px);

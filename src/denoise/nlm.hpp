@@ -16,7 +16,8 @@ namespace thermedge::detail {
 // its sides, linearly: with equal weights small structures are smeared (0.5 dB to 0.9 dB lost).
 class NonLocalMeans {
  public:
-  explicit NonLocalMeans(const NlmOptions& options) : options_(options) {}
+  explicit NonLocalMeans(const NlmOptions& options, const NlmTuning& tuning = {})
+      : options_(options), tuning_(tuning) {}
 
   // Makes the scratch memory for frames of this size, which run() would make otherwise.
   void prepare(int width, int height);
@@ -35,6 +36,7 @@ class NonLocalMeans {
            ParallelRunner& runner);
 
   NlmOptions options_;
+  NlmTuning tuning_;
   Image<float> values_;          // the frame in units of the noise, with mirrored margins
   Image<std::uint16_t> levels_;  // the same as integers, for comparing patches
   Image<std::uint16_t> boxes_;   // scratch of each task

@@ -98,7 +98,7 @@ int find_ridges_row(const float* response, std::ptrdiff_t stride, const std::int
                     const DiagonalShares& shares, float low, int count, std::int32_t* places) {
   const F32 d;
   const I32 di;
-  const auto half_turn = hn::Set(di, 12);
+  const auto half_turn = hn::Set(di, kEdgeOrientations);
   int found = 0;
   for (int x = 0; x < count; x += kLanes) {
     const auto any = hn::LoadU(di, direction + x);
@@ -134,13 +134,14 @@ void suppressed_responses_at(const float* response, const std::int32_t* directio
     const auto own = hn::GatherIndex(di, direction, place);
     const auto at = [&](Ints side) {
       const auto turn = hn::Abs(hn::GatherIndex(di, direction, side) - own);
-      const auto differs = hn::And(turn > hn::Set(di, 3), turn < hn::Set(di, 21));
+      const auto differs = hn::And(turn > hn::Set(di, kLargestTurn),
+                                   turn < hn::Set(di, kEdgeDirections - kLargestTurn));
       return hn::IfThenElse(hn::RebindMask(d, differs), hn::Zero(d),
                             hn::GatherIndex(d, response, side));
     };
     auto least = hn::Zero(d);
     for (int side = 0; side < sides; ++side) {
-      const auto offset = hn::GatherIndex(di, offsets + 24 * side, own);
+      const auto offset = hn::GatherIndex(di, offsets + kEdgeDirections * side, own);
       const auto both = at(place + offset) + at(place - offset);
       least = side == 0 ? both : hn::Min(least, both);
     }

@@ -5,9 +5,12 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "thermedge/stages/oriented_filter.hpp"
+
 namespace thermedge::detail {
 
 inline constexpr int kFilterSlack = 16;  // elements that may be read and written behind the last
+inline constexpr int kLargestTurn = kEdgeDirections / 8;  // 45 degrees: directions that agree
 
 // out[x] = sum over k = 1 .. radius of weights[k] (centre[x + k step] - centre[x - k step]).
 void odd_filter_row(const float* centre, std::ptrdiff_t step, const float* weights, int radius,
@@ -27,8 +30,9 @@ void keep_stronger_row(const float* centre, const std::ptrdiff_t* offsets, const
                        int radius, int index, int reverse, int width, float* response,
                        std::int32_t* direction);
 
-// Directions of edges are 0 .. 23, in steps of 15 degrees; those 12 apart have their sides swapped.
-// The share of the diagonal neighbour by how far a direction is off an axis: 0, 15, 30, 45 degrees.
+// Directions of edges are 0 .. kEdgeDirections - 1, in steps of 15 degrees; those kEdgeOrientations
+// apart have their sides swapped. The share of the diagonal neighbour by how far a direction is off
+// an axis: 0, 15, 30, 45 degrees.
 using DiagonalShares = std::array<float, 4>;
 
 // Writes to `places`, in ascending order, those x of 0 .. count - 1 at which response[x] > low is
@@ -40,9 +44,9 @@ using DiagonalShares = std::array<float, 4>;
                                   float low, int count, std::int32_t* places);
 
 // out[i] = the response at places[i] less half of the least sum of both sides, over `sides` pairs
-// of them, side k of a direction at +-offsets[24 k + direction]. A side whose direction is off by
-// more than 45 degrees counts as 0. `places` and `out` are read and written up to a vector behind
-// the last.
+// of them, side k of a direction at +-offsets[kEdgeDirections k + direction]. A side whose
+// direction is off by more than 45 degrees counts as 0. `places` and `out` are read and written up
+// to a vector behind the last.
 void suppressed_responses_at(const float* response, const std::int32_t* direction,
                              const std::int32_t* offsets, int sides, const std::int32_t* places,
                              int count, float* out);

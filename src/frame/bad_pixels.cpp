@@ -11,9 +11,6 @@ namespace {
 
 using Frame = ImageView<const std::uint16_t>;
 
-constexpr int kSmallestSide = 5;
-constexpr int kOpticsRatio = 2;  // of how far a real point stands out, see the header
-
 // Some of the pixels of a 5x5 neighbourhood, in ascending order.
 class Values {
  public:
@@ -54,7 +51,7 @@ Values ring(Frame frame, int x, int y, int radius) {
 }
 
 // The rule for dead pixels in full; slow, so only the pixels that pass the noise test get here.
-bool is_dead(Frame frame, int x, int y, int limit) {
+bool is_dead(Frame frame, int x, int y, int limit, int optics_ratio) {
   const Values neighbours = ring(frame, x, y, 1);
   const int above = frame(x, y) - neighbours.second_largest();
   const int below = neighbours.second_smallest() - frame(x, y);
@@ -68,17 +65,18 @@ bool is_dead(Frame frame, int x, int y, int limit) {
   const int contrast = all_seen ? 0 : surroundings.largest() - surroundings.smallest();
   const int hill = std::max(neighbours.second_largest() - surroundings.median(), contrast);
   const int hollow = std::max(surroundings.median() - neighbours.second_smallest(), contrast);
-  return above > limit + kOpticsRatio * hill || below > limit + kOpticsRatio * hollow;
+  return above > limit + optics_ratio * hill || below > limit + optics_ratio * hollow;
 }
 
-int limit_counts(double sigma_counts, const BadPixelOptions& options) {
-  const double limit = std::max(sigma_counts, 1.0) * options.threshold_sigmas;
+int limit_counts(double sigma_counts, const BadPixelOptions& options,
+                 const BadPixelTuning& tuning) {
+  const double limit = std::max(sigma_counts, tuning.least_sigma_counts) * options.threshold_sigmas;
   constexpr double kLargest = std::numeric_limits<std::uint16_t>::max();
   return static_cast<int>(std::clamp(limit, 0.0, kLargest));
 }
 
 // Collects candidates, all pixels of the border among them, then drops those that are none.
-void find_bad_pixels(Frame frame, int limit, std::vector<BadPixel>& dead) {
+void find_bad_pixels(Frame frame, int limit, int optics_ratio, std::vector<BadPixel>& dead) {
   const int width = frame.width();
   const int height = frame.height();
   for (int y = 0; y < height; ++y) {
@@ -93,7 +91,8 @@ void find_bad_pixels(Frame frame, int limit, std::vector<BadPixel>& dead) {
                             dead);
     dead.push_back({width - 1, y});
   }
-  std::erase_if(dead, [&](BadPixel pixel) { return !is_dead(frame, pixel.x, pixel.y, limit); });
+  std::erase_if(
+      dead, [&](BadPixel pixel) { return !is_dead(frame, pixel.x, pixel.y, limit, optics_ratio); });
 }
 
 bool contains(const std::vector<BadPixel>& dead, int x, int y) {
@@ -107,12 +106,13 @@ bool contains(const std::vector<BadPixel>& dead, int x, int y) {
 Status BadPixelOptions::check() const { return check_ranges(*this, "bad_pixels."); }
 
 void replace_bad_pixels(ImageView<std::uint16_t> frame, double sigma_counts,
-                        const BadPixelOptions& options, std::vector<BadPixel>& dead) {
+                        const BadPixelOptions& options, std::vector<BadPixel>& dead,
+                        const BadPixelTuning& tuning) {
   dead.clear();
-  if (std::min(frame.width(), frame.height()) < kSmallestSide) {
+  if (std::min(frame.width(), frame.height()) < tuning.smallest_side_px) {
     return;
   }
-  find_bad_pixels(frame, limit_counts(sigma_counts, options), dead);
+  find_bad_pixels(frame, limit_counts(sigma_counts, options, tuning), tuning.optics_ratio, dead);
   const auto is_good = [&](int x, int y) { return !contains(dead, x, y); };
   for (const BadPixel& pixel : dead) {
     Values values = ring(frame, pixel.x, pixel.y, 1, is_good);

@@ -10,8 +10,6 @@
 namespace thermedge {
 namespace {
 
-constexpr int kSmallestSide = 8;
-constexpr int kStripeSamples = 96;               // per column (row), spread over its length
 constexpr double kResidualGain = 6;              // of [1 -2 1] x [1 -2 1] for white noise
 constexpr double kSecondDifferenceVariance = 6;  // 1 + 4 + 1
 constexpr double kSigmaOverMad = 1.4826;         // of a Gaussian
@@ -45,7 +43,7 @@ double median_of(const std::vector<std::uint32_t>& histogram) {
 }  // namespace
 
 NoiseEstimate NoiseEstimator::measure(ImageView<const std::uint16_t> frame) {
-  if (std::min(frame.width(), frame.height()) < kSmallestSide) {
+  if (std::min(frame.width(), frame.height()) < tuning_.smallest_side_px) {
     return {};
   }
   filter(frame);
@@ -120,7 +118,7 @@ double NoiseEstimator::stripe_sigma(ImageView<const std::int32_t> second_differe
 
 // Second differences along the rows, for some of the rows.
 ImageView<const std::int32_t> NoiseEstimator::sample_along_rows() {
-  const int step = std::max(frame_.height() / kStripeSamples, 1);
+  const int step = std::max(frame_.height() / tuning_.stripe_samples, 1);
   samples_.resize(frame_.width() - 2, frame_.height() / step);
   for (int i = 0; i < samples_.height(); ++i) {
     const std::uint16_t* row = frame_.row(i * step);
@@ -134,7 +132,7 @@ ImageView<const std::int32_t> NoiseEstimator::sample_along_rows() {
 
 // Second differences along the columns, for some of the columns, which become rows.
 ImageView<const std::int32_t> NoiseEstimator::sample_along_columns() {
-  const int step = std::max(frame_.width() / kStripeSamples, 1);
+  const int step = std::max(frame_.width() / tuning_.stripe_samples, 1);
   samples_.resize(frame_.height() - 2, frame_.width() / step);
   for (int y = 0; y < samples_.width(); ++y) {
     for (int i = 0; i < samples_.height(); ++i) {

@@ -1,7 +1,6 @@
 #include "stripe_mask.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdlib>
@@ -17,12 +16,7 @@ namespace {
 
 constexpr int kRadius = 2;            // of the smoothing
 constexpr int kMargin = kRadius + 1;  // and one pixel for the gradient
-// Half the heights of the windows in which long edges show, squares; what they have to be over
-// noise; and the largest step that counts, so that a short strong edge is no long faint one.
-constexpr std::array kLongReach = {5, 13};
-constexpr double kLongZ = 2.5;
-constexpr double kMostStep = 2.5;
-constexpr int kUnit = 2;  // steps of a count, for the offsets; as square_row has it
+constexpr int kUnit = 2;              // steps of a count, for the offsets; as square_row has it
 
 // Standard deviation of a gradient where that of a pixel is 1: 2 kUnit for a square, and the root
 // of the sum of the squared weights of the binomial kernel of order 4 and Sobel's, together
@@ -122,7 +116,7 @@ void StripeMask::mark_gradients(double threshold) {
 }
 
 void StripeMask::find_steps(double deviation) {
-  const auto most = static_cast<std::int32_t>(std::lround(kMostStep * deviation));
+  const auto most = static_cast<std::int32_t>(std::lround(tuning_.most_step_sigmas * deviation));
   const std::ptrdiff_t stride = squares_.stride();
   for (int y = 0; y < down_; ++y) {
     const std::int32_t* at = squares_.row(y + kMargin) + kMargin;
@@ -149,13 +143,11 @@ void StripeMask::add_windows(ImageView<const std::int32_t> steps, int reach,
   }
 }
 
-// Over the root of the number of rows: what a fifth of the windows are below.
+// Over the root of the number of rows: what the edgeless share of the windows is below.
 double StripeMask::usual_sum(ImageView<const std::int32_t> sums, int reach) {
-  constexpr double kQuantile = 0.2;
-  constexpr int kSampleRows = 5;
   sample_.clear();
   for (int y = 0; y < sums.height(); ++y) {
-    if (std::min(y, sums.height() - 1 - y) % kSampleRows != 0) {
+    if (std::min(y, sums.height() - 1 - y) % tuning_.sample_step_squares != 0) {
       continue;  // the same rows from either side
     }
     const auto scale = static_cast<float>(1 / std::sqrt(window_rows(y, reach, sums.height())));
@@ -165,21 +157,22 @@ double StripeMask::usual_sum(ImageView<const std::int32_t> sums, int reach) {
     std::transform(row, row + sums.width(), sample_.data() + first,
                    [=](std::int32_t sum) { return scale * static_cast<float>(std::abs(sum)); });
   }
-  return nth_value(std::span(sample_),
-                   static_cast<std::size_t>(kQuantile * static_cast<double>(sample_.size())));
+  return nth_value(
+      std::span(sample_),
+      static_cast<std::size_t>(tuning_.edgeless_quantile * static_cast<double>(sample_.size())));
 }
 
 // Marks where the mean of `steps`, of which noise has this deviation, over a window of rows stands
 // out, and the columns beside it. What most windows have is no edge: stripes that are still there.
 void StripeMask::mark_long(ImageView<const std::int32_t> steps, double deviation,
                            ImageView<std::int32_t> sums, ImageView<std::uint8_t> marks) {
-  constexpr double kQuantileOfNoise = 0.2533;  // P(|Z| < this) = 0.2
-  for (const int reach : kLongReach) {
+  for (const int reach : tuning_.long_reach_squares) {
     add_windows(steps, reach, sums);
-    const double usual = std::max(deviation, usual_sum(sums, reach) / kQuantileOfNoise);
+    const double usual = std::max(deviation, usual_sum(sums, reach) / tuning_.edgeless_quantile_z);
     for (int y = 0; y < sums.height(); ++y) {
       const double rows = window_rows(y, reach, sums.height());
-      const auto limit = static_cast<std::int32_t>(std::lround(kLongZ * usual * std::sqrt(rows)));
+      const auto limit =
+          static_cast<std::int32_t>(std::lround(tuning_.long_z * usual * std::sqrt(rows)));
       mark_beyond_row(sums.row(y), limit, sums.width(), marks.row(y));
     }
   }

@@ -10,6 +10,7 @@
 #include "stripe_mask_simd.hpp"
 #include "thermedge/image.hpp"
 #include "thermedge/memory.hpp"
+#include "thermedge/stages/stripes.hpp"
 
 namespace thermedge::detail {
 
@@ -19,6 +20,8 @@ class StripeMask {
  public:
   static constexpr std::uint16_t kNoEdge = 2 * kFarSquares - 1;
   static_assert(kNoEdge > kLargestLag);
+
+  explicit StripeMask(const StripeMaskTuning& tuning = {}) : tuning_(tuning) {}
 
   void prepare(int width, int height);
 
@@ -55,6 +58,7 @@ class StripeMask {
   void mark_long(ImageView<const std::int32_t> steps, double deviation,
                  ImageView<std::int32_t> sums, ImageView<std::uint8_t> marks);
 
+  StripeMaskTuning tuning_;
   int across_ = 0;  // squares
   int down_ = 0;
   Image<std::int32_t> squares_, smoothed_;  // with a margin

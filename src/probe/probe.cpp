@@ -20,10 +20,6 @@ using detail::Mean;
 // Algorithm 1's default among round steps to both sides of it.
 constexpr std::array kGains = {10.0, 5.0, 2.0, 1.0, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01, 0.005};
 
-constexpr std::size_t kMostSamples = 4096;
-constexpr std::int64_t kShutterRepeats = 2;
-constexpr std::int64_t kLeastFramesForDeadPixels = 3;
-
 bool same_counts(ImageView<const std::uint16_t> a, ImageView<const std::uint16_t> b) {
   for (int y = 0; y < a.height(); ++y) {
     if (!std::equal(a.row(y), a.row(y) + a.width(), b.row(y))) {
@@ -50,12 +46,14 @@ double median_change(ImageView<const std::uint16_t> a, ImageView<const std::uint
 // Keeps every n-th sample, n doubled whenever there are too many.
 class Series {
  public:
-  Series() { samples_.reserve(kMostSamples); }
+  explicit Series(std::size_t most_samples) : most_samples_(most_samples) {
+    samples_.reserve(most_samples);
+  }
   void add(const ProbeSample& sample) {
     if (sample.frame % step_ != 0) {
       return;
     }
-    if (samples_.size() == kMostSamples) {
+    if (samples_.size() == most_samples_) {
       step_ *= 2;
       std::erase_if(samples_, [&](const ProbeSample& kept) { return kept.frame % step_ != 0; });
     }
@@ -66,6 +64,7 @@ class Series {
   [[nodiscard]] const std::vector<ProbeSample>& samples() const { return samples_; }
 
  private:
+  std::size_t most_samples_;
   std::vector<ProbeSample> samples_;
   std::int64_t step_ = 1;
 };
@@ -77,7 +76,11 @@ std::string size_text(int width, int height) {
 }  // namespace
 
 struct RecordingProbe::Impl {
+  Impl(const ProbeOptions& chosen, const ProbeTuning& chosen_tuning)
+      : options(chosen), tuning(chosen_tuning), series(chosen_tuning.most_samples) {}
+
   ProbeOptions options;
+  ProbeTuning tuning;
   RecordingReport report;  // what is counted up; the rest is filled in by finish()
   std::uint16_t bits_set = 0;
   std::int64_t freeze = 0;  // repeats since the last new frame
@@ -177,7 +180,8 @@ void RecordingProbe::Impl::add_counts(ImageView<const std::uint16_t> frame) {
   report.min_counts = is_first ? sorted.min() : std::min(report.min_counts, sorted.min());
   report.max_counts = is_first ? sorted.max() : std::max(report.max_counts, sorted.max());
   range.add(sorted.max() - sorted.min());
-  robust_range.add(sorted.quantile(0.99) - sorted.quantile(0.01));
+  robust_range.add(sorted.quantile(1 - tuning.range_tail_share) -
+                   sorted.quantile(tuning.range_tail_share));
   for (std::size_t i = 0; i < kGains.size(); ++i) {
     clipped[i].add(sorted.clipped_share(kGains[i]));
   }
@@ -211,7 +215,7 @@ void RecordingProbe::Impl::add_new_frame(ImageView<const std::uint16_t> frame,
 }
 
 void RecordingProbe::Impl::end_freeze(ImageView<const std::uint16_t> frame, double sigma_counts) {
-  if (freeze >= kShutterRepeats) {
+  if (freeze >= tuning.shutter_repeats) {
     const double jump = median_change(previous, frame, changes);
     if (std::abs(jump) > sigma_counts) {
       ++report.offset_jumps;
@@ -258,7 +262,7 @@ RecordingReport RecordingProbe::Impl::finish() const {
   }
   result.series = series.samples();
   result.preset = options.preset;
-  result.suggested = suggest_options(result, result.preset);
+  result.suggested = suggest_options(result, result.preset, tuning.suggestions);
   return result;
 }
 
@@ -288,7 +292,7 @@ void RecordingProbe::Impl::finish_noise(RecordingReport& result) const {
 void RecordingProbe::Impl::finish_bad_pixels(RecordingReport& result) const {
   std::int64_t lasting = 0;
   std::int64_t lasting_flags = 0;
-  if (new_frames >= kLeastFramesForDeadPixels) {
+  if (new_frames >= tuning.least_frames_for_dead_pixels) {
     for (int y = 0; y < dead_frames.height(); ++y) {
       for (int x = 0; x < dead_frames.width(); ++x) {
         const std::int64_t frames = dead_frames(x, y);
@@ -313,9 +317,8 @@ double RecordingReport::clipped_share(double gain) const {
   return 0;
 }
 
-RecordingProbe::RecordingProbe(const ProbeOptions& options) : impl_(std::make_unique<Impl>()) {
-  impl_->options = options;
-}
+RecordingProbe::RecordingProbe(const ProbeOptions& options, const ProbeTuning& tuning)
+    : impl_(std::make_unique<Impl>(options, tuning)) {}
 RecordingProbe::RecordingProbe(RecordingProbe&&) noexcept = default;
 RecordingProbe& RecordingProbe::operator=(RecordingProbe&&) noexcept = default;
 RecordingProbe::~RecordingProbe() = default;

@@ -6,11 +6,7 @@
 namespace thermedge::detail {
 namespace {
 
-constexpr int kBlock = 8;              // px
-constexpr float kStructureSigmas = 6;  // step over two blocks
-constexpr float kChangeSigmas = 0.6F;  // of a block: more than 3 times its noise
-constexpr int kLeastStructured = 8;    // blocks
-constexpr int kMovedPart = 3;          // a third of them
+constexpr int kBlock = MotionTuning::kBlockPx;
 
 }  // namespace
 
@@ -29,13 +25,15 @@ bool MotionGate::moved(ImageView<const std::uint16_t> frame, double sigma_counts
   int changed = 0;
   for (int y = 0; y < blocks_.height(); ++y) {
     for (int x = 0; x < blocks_.width(); ++x) {
-      if (has_structure(x, y, kStructureSigmas * sigma)) {
+      if (has_structure(x, y, tuning_.structure_sigmas * sigma)) {
         ++structured;
-        changed += std::abs(blocks_(x, y) - last_(x, y) - drift) > kChangeSigmas * sigma ? 1 : 0;
+        changed +=
+            std::abs(blocks_(x, y) - last_(x, y) - drift) > tuning_.change_sigmas * sigma ? 1 : 0;
       }
     }
   }
-  const bool is_moved = structured < kLeastStructured || kMovedPart * changed >= structured;
+  const bool is_moved =
+      structured < tuning_.least_structured || tuning_.moved_part * changed >= structured;
   if (is_moved) {
     last_.swap(blocks_);
   }

@@ -6,14 +6,10 @@
 namespace thermedge::detail {
 namespace {
 
-constexpr int kSmallestSide = 8;
-constexpr int kTileSide = 32;
 constexpr double kSigmaOverMad = 1.4826;  // of a Gaussian
 constexpr double kResidualGain = 6;       // of [1 -2 1] x [1 -2 1] for white noise
 constexpr double kRoundingVariance = 1.0 / 12;
-constexpr int kLeastPatternFrames = 4;
 constexpr int kMostPatternFrames = 4096;  // bounds the sums; more would not sharpen the map
-constexpr double kPatternClipSigmas = 4;  // an edge that passes counts as no more than this
 constexpr double kLargestResidual = 8.0 * 65535;
 
 int second_difference(int first, int middle, int last) { return first - 2 * middle + last; }
@@ -48,7 +44,7 @@ double sigma_of_magnitudes(std::vector<std::int32_t>& magnitudes) {
 }
 
 double TiledNoise::add(ImageView<const std::uint16_t> frame) {
-  if (std::min(frame.width(), frame.height()) < kSmallestSide) {
+  if (std::min(frame.width(), frame.height()) < tuning_.smallest_side_px) {
     return 0;
   }
   lay_tiles(frame.width() - 2, frame.height() - 2);
@@ -71,8 +67,8 @@ void TiledNoise::lay_tiles(int width, int height) {
   if (!tiles_.empty()) {
     return;
   }
-  tile_columns_ = std::max(width / kTileSide, 1);
-  const int tile_rows = std::max(height / kTileSide, 1);
+  tile_columns_ = std::max(width / tuning_.tile_side_px, 1);
+  const int tile_rows = std::max(height / tuning_.tile_side_px, 1);
   for (int j = 0; j < tile_rows; ++j) {
     for (int i = 0; i < tile_columns_; ++i) {
       const int x = i * width / tile_columns_;
@@ -159,7 +155,8 @@ void TiledNoise::add_to_pattern() {
   const auto part = static_cast<std::size_t>(frames % 2);
   ++pattern_frames_[part];
   // Sums stay below 2^31 / 2: a residual of more says nothing about noise.
-  const double clip = std::min(kPatternClipSigmas * kResidualGain * last_sigma_, kLargestResidual);
+  const double clip =
+      std::min(tuning_.pattern_clip_sigmas * kResidualGain * last_sigma_, kLargestResidual);
   const auto limit = static_cast<std::int32_t>(clip);
   for (int y = 0; y < residual_.height(); ++y) {
     const std::int32_t* from = residual_.row(y);
@@ -185,7 +182,7 @@ NoiseMap TiledNoise::map() const {
 }
 
 std::optional<TiledNoise::Pattern> TiledNoise::pattern() const {
-  if (pattern_frames_[0] + pattern_frames_[1] < kLeastPatternFrames) {
+  if (pattern_frames_[0] + pattern_frames_[1] < tuning_.least_pattern_frames) {
     return std::nullopt;
   }
   std::vector<double> sums, differences;

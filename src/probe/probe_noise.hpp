@@ -18,8 +18,18 @@ namespace thermedge::detail {
 // Reorders `magnitudes`; 0 where there are none.
 [[nodiscard]] double sigma_of_magnitudes(std::vector<std::int32_t>& magnitudes);
 
+struct TiledNoiseTuning {
+  int smallest_side_px = 8;  // shorter sides give no noise: the median is of too few pixels
+  int tile_side_px = 32;  // about: a smaller one follows uneven noise closer, with less precision
+  int least_pattern_frames = 4;  // with the scene moved: fewer leave too much of it in the maps
+  // A residual beyond this many sigma counts as this: an edge that passes is no pattern.
+  double pattern_clip_sigmas = 4;
+};
+
 class TiledNoise {
  public:
+  explicit TiledNoise(const TiledNoiseTuning& tuning = {}) : tuning_(tuning) {}
+
   // Measures a frame and returns its spatial sigma, counts: 0 where a side is under 8 px.
   // Frames have one size.
   double add(ImageView<const std::uint16_t> frame);
@@ -48,6 +58,7 @@ class TiledNoise {
   template <class F>
   double tile_variance(const Tile& tile, double gain, F&& value);
 
+  TiledNoiseTuning tuning_;
   std::vector<Tile> tiles_;
   int tile_columns_ = 0;
   Image<std::int32_t> residual_, previous_residual_;  // 6 times the noise, signed

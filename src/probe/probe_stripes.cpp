@@ -7,8 +7,7 @@
 namespace thermedge::detail {
 namespace {
 
-constexpr int kSamples = 96;         // along a column (row), spread over its length
-constexpr int kReach = 4;            // neighbours on each side
+constexpr int kReach = StripeProfileTuning::kReach;
 constexpr std::int32_t kScale = 24;  // divisible by 2, 4, 6 and 8 neighbours: whole numbers
 constexpr std::int32_t kLargest = (1 << 18) - 1;  // column_medians allows
 
@@ -25,7 +24,7 @@ void StripeProfiles::add(ImageView<const std::uint16_t> frame) {
 // `count(i, j)`: of pixel j of line i.
 template <class F>
 void StripeProfiles::add_profile(int size, int across, F&& count, std::vector<double>& sums) {
-  const int step = std::max(across / kSamples, 1);
+  const int step = std::max(across / tuning_.samples, 1);
   offsets_.resize(size, across / step);
   fill_pixels(offsets_.view(), 0);
   for (int sample = 0; sample < offsets_.height(); ++sample) {

@@ -9,12 +9,7 @@
 namespace thermedge {
 namespace {
 
-constexpr double kMostClipped = 0.02;
-constexpr double kCoarsestLevelSigmas = 2;  // a coarser level hides what noise leaves
-constexpr double kFinestLevelSigmas = 0.25;
-constexpr double kSigmaTolerance = 0.05;
-constexpr double kStripesToRemove = 0.2;  // in units of the noise; edges alone look like an eighth
-constexpr double kManyPassing = 2e-4;     // of the pixels
+// Frames that the paper's limits on sizes are for, px.
 constexpr int kPaperWidth = 382;
 constexpr int kPaperHeight = 288;
 
@@ -33,15 +28,17 @@ std::string shortest(double value) {
 std::string percent(double share) { return number(100 * share, 1) + " %"; }
 
 // The largest gain that clips little and is no finer than the noise deserves.
-std::optional<double> better_gain(const RecordingReport& report, double now) {
+std::optional<double> better_gain(const RecordingReport& report, double now,
+                                  const SuggestionTuning& tuning) {
   const double sigma = report.sigma_counts;
-  const bool clips = report.clipped_share(now) > kMostClipped;
-  const bool is_coarse = sigma > 0 && 1 / now > kCoarsestLevelSigmas * sigma;
+  const bool clips = report.clipped_share(now) > tuning.most_clipped_share;
+  const bool is_coarse = sigma > 0 && 1 / now > tuning.coarsest_level_sigmas * sigma;
   if (!clips && !is_coarse) {
     return std::nullopt;
   }
   for (const GainClipping& entry : report.clipping) {
-    if (entry.share <= kMostClipped && 1 / entry.gain >= kFinestLevelSigmas * sigma &&
+    if (entry.share <= tuning.most_clipped_share &&
+        1 / entry.gain >= tuning.finest_level_sigmas * sigma &&
         (clips ? entry.gain < now : entry.gain > now)) {
       return entry.gain;
     }
@@ -49,18 +46,20 @@ std::optional<double> better_gain(const RecordingReport& report, double now) {
   return std::nullopt;
 }
 
-void suggest_gain(const RecordingReport& report, std::vector<SuggestedOption>& options) {
+void suggest_gain(const RecordingReport& report, const SuggestionTuning& tuning,
+                  std::vector<SuggestedOption>& options) {
   const double now = GreyScaleOptions{}.gain;
-  if (const auto gain = better_gain(report, now)) {
+  if (const auto gain = better_gain(report, now, tuning)) {
     options.push_back({"grey_scale.gain", shortest(*gain),
                        "clips " + percent(report.clipped_share(*gain)) + " of the pixels, gain " +
                            shortest(now) + " would clip " + percent(report.clipped_share(now))});
   }
 }
 
-void suggest_sigma(const RecordingReport& report, std::vector<SuggestedOption>& options) {
+void suggest_sigma(const RecordingReport& report, const SuggestionTuning& tuning,
+                   std::vector<SuggestedOption>& options) {
   const double sigma = report.sigma_counts;
-  if (std::abs(sigma - report.frame_sigma_counts) > kSigmaTolerance * sigma) {
+  if (std::abs(sigma - report.frame_sigma_counts) > tuning.sigma_tolerance * sigma) {
     options.push_back({"denoise.sigma_counts", number(sigma, 1),
                        "noise differs over the picture; its quieter half has " +
                            number(report.frame_sigma_counts, 1) + " counts"});
@@ -69,30 +68,31 @@ void suggest_sigma(const RecordingReport& report, std::vector<SuggestedOption>& 
 
 }  // namespace
 
-std::vector<SuggestedOption> suggest_options(const RecordingReport& report, Preset preset) {
+std::vector<SuggestedOption> suggest_options(const RecordingReport& report, Preset preset,
+                                             const SuggestionTuning& tuning) {
   std::vector<SuggestedOption> options;
   const DetectorOptions defaults(preset);
   const PaperOptions* paper = defaults.paper();
   const double pixels = static_cast<double>(report.width) * report.height;
-  if (report.passing_bad_pixels > kManyPassing * pixels) {
+  if (report.passing_bad_pixels > tuning.passing_share * pixels) {
     options.push_back({"bad_pixels.threshold_sigmas",
-                       shortest(2 * defaults.bad_pixels.threshold_sigmas),
+                       shortest(tuning.threshold_factor * defaults.bad_pixels.threshold_sigmas),
                        number(report.passing_bad_pixels, 0) +
                            " pixels a frame are taken for dead that soon recover"});
   }
   const double stripes = std::max(report.column_sigma_counts, report.row_sigma_counts);
-  if (!defaults.stripes.remove && stripes > kStripesToRemove * report.sigma_counts) {
+  if (!defaults.stripes.remove && stripes > tuning.stripes_sigmas * report.sigma_counts) {
     options.push_back({"stripes.remove", "true",
                        "columns or rows are offset by " + number(stripes, 1) +
                            " counts, which come out as edges"});
   }
   if (paper != nullptr && report.container_bits == 16) {
-    suggest_gain(report, options);
+    suggest_gain(report, tuning, options);
   }
-  suggest_sigma(report, options);
+  suggest_sigma(report, tuning, options);
   const double scale =
       static_cast<double>(report.width + report.height) / (kPaperWidth + kPaperHeight);
-  if (paper != nullptr && scale < 0.75) {
+  if (paper != nullptr && scale < tuning.small_frame_scale) {
     options.push_back({"contours.min_component_px",
                        number(std::round(paper->contours.min_component_px * scale), 0),
                        "in proportion to the size of the frames"});

@@ -77,8 +77,8 @@ double edge_score(const EdgeScoreTerms& terms) {
          (terms.points * terms.points * terms.connected_points * terms.loop_line_ratio);
 }
 
-double saliency(std::span<const Pixel> pixels, ImageView<const float> suppressed_response) {
-  constexpr double kLeastMean = 0.02;  // so that the logarithm is finite
+double saliency(std::span<const Pixel> pixels, ImageView<const float> suppressed_response,
+                const ScoringTuning& tuning) {
   double sum = 0;
   int count = 0;
   for (const Pixel pixel : pixels) {
@@ -86,8 +86,8 @@ double saliency(std::span<const Pixel> pixels, ImageView<const float> suppressed
     sum += std::max(value, 0.0);
     count += value > 0 ? 1 : 0;
   }
-  return std::log(std::max(sum / std::max(count, 1), kLeastMean)) +
-         0.25 * std::log(static_cast<double>(pixels.size()));
+  return std::log(std::max(sum / std::max(count, 1), tuning.least_mean)) +
+         tuning.length_weight * std::log(static_cast<double>(pixels.size()));
 }
 
 Status Scorer::run(const LinkedContours& linked, const CornerSet& corners, int width, int height,
@@ -99,17 +99,15 @@ Status Scorer::run(const LinkedContours& linked, const CornerSet& corners, int w
 
 Status Scorer::run(const LinkedContours& linked, const CornerSet& corners,
                    ImageView<const float> suppressed_response, EdgeSet& edges) {
-  // Scores between which strength rises: hardly there, and a wall at a hundred times the noise.
-  constexpr double kFaintest = -1.5;
-  constexpr double kStrongest = 4.5;
   return score_contours(linked, corners, suppressed_response.width(), suppressed_response.height(),
                         edges)
       .map([&] {
         score_by_saliency(linked.contours, suppressed_response);
         fill(linked, corners, edges);
+        const double faintest = tuning_.faintest_score;
         for (Edge& edge : edges.edges) {
           edge.display_strength =
-              std::clamp((edge.score - kFaintest) / (kStrongest - kFaintest), 0.0, 1.0);
+              std::clamp((edge.score - faintest) / (tuning_.strongest_score - faintest), 0.0, 1.0);
         }
       });
 }
@@ -117,7 +115,8 @@ Status Scorer::run(const LinkedContours& linked, const CornerSet& corners,
 void Scorer::score_by_saliency(const ContourSet& contours,
                                ImageView<const float> suppressed_response) {
   for (Ranked& ranked : order_) {
-    ranked.score = saliency(contours.pixels(contours.items[ranked.contour]), suppressed_response);
+    ranked.score =
+        saliency(contours.pixels(contours.items[ranked.contour]), suppressed_response, tuning_);
   }
 }
 

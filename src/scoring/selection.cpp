@@ -86,7 +86,7 @@ void EdgeSelector::keep_best(EdgeSet& edges) const {
 
 void EdgeSelector::keep_junctions(int width, int height, EdgeSet& edges) {
   constexpr std::int32_t kNobody = -1;
-  constexpr int kReach = 2;
+  const int reach = tuning_.junction_reach_px;
   owner_.resize(width, height);
   fill_pixels(owner_.view(), kNobody);
   for (const Edge& edge : edges.kept_edges()) {
@@ -97,8 +97,8 @@ void EdgeSelector::keep_junctions(int width, int height, EdgeSet& edges) {
   }
   std::erase_if(edges.junctions, [&](const Junction& junction) {
     std::int32_t first = kNobody;
-    for (int y = junction.at.y - kReach; y <= junction.at.y + kReach; ++y) {
-      for (int x = junction.at.x - kReach; x <= junction.at.x + kReach; ++x) {
+    for (int y = junction.at.y - reach; y <= junction.at.y + reach; ++y) {
+      for (int x = junction.at.x - reach; x <= junction.at.x + reach; ++x) {
         const std::int32_t owner = owner_.view().contains(x, y) ? owner_(x, y) : kNobody;
         if (owner != kNobody && first != kNobody && owner != first) {
           return false;

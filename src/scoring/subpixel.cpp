@@ -8,6 +8,9 @@
 namespace thermedge {
 namespace {
 
+constexpr double kLeastResponse = 1e-6;  // so that logarithms and quotients are finite
+constexpr double kHalfPixel = 0.499;     // less than half, so that rounding finds the same pixel
+
 // Least-squares quadratic through 3 x 3 values: its derivatives at the middle one.
 struct Facet {
   double x = 0, y = 0, xx = 0, xy = 0, yy = 0;
@@ -48,8 +51,7 @@ class LogWindow {
   using Logs = std::array<std::array<double, 3>, 3>;
 
   [[nodiscard]] double log_at(int x, int y) const {
-    constexpr double kLeast = 1e-6;
-    return std::log(std::max(static_cast<double>(values_(x, y)), kLeast));
+    return std::log(std::max(static_cast<double>(values_(x, y)), kLeastResponse));
   }
 
   ImageView<const float> values_;
@@ -58,11 +60,9 @@ class LogWindow {
   Logs logs_{};
 };
 
-constexpr double kHalfPixel = 0.499;
-
 // To the ridge, within the pixel.
-void move_to_ridge(ImageView<const float> response, double sigma_times_strength, LogWindow& window,
-                   Edgels& edgels, std::size_t i) {
+void move_to_ridge(ImageView<const float> response, double sigma_times_strength,
+                   double least_sigma_px, LogWindow& window, Edgels& edgels, std::size_t i) {
   const int x = static_cast<int>(edgels.x[i] + 0.5F);  // not negative
   const int y = static_cast<int>(edgels.y[i] + 0.5F);
   if (x < 1 || y < 1 || x >= response.width() - 1 || y >= response.height() - 1) {
@@ -80,12 +80,12 @@ void move_to_ridge(ImageView<const float> response, double sigma_times_strength,
     edgels.x[i] = static_cast<float>(x + shift * nx);
     edgels.y[i] = static_cast<float>(y + shift * ny);
   }
-  constexpr double kLeastSigma = 0.01;
-  edgels.position_sigma_px[i] = static_cast<float>(std::max(
-      sigma_times_strength / std::max(static_cast<double>(response(x, y)), 1e-6), kLeastSigma));
+  edgels.position_sigma_px[i] = static_cast<float>(
+      std::max(sigma_times_strength / std::max(static_cast<double>(response(x, y)), kLeastResponse),
+               least_sigma_px));
 }
 
-constexpr std::size_t kReach = 8;  // edgels to either side that tell the curvature
+constexpr std::size_t kReach = SubpixelTuning::kCurvatureReach;
 
 // The edgels of one edge as they were before the first was moved.
 class PreviousPositions {
@@ -121,9 +121,8 @@ class PreviousPositions {
 };
 
 // Outwards, by half the variance of the kernel over the radius.
-void compensate_curvature_bias(double along_px, const Edge& edge, Edgels& edgels) {
-  // Of what a kernel makes that is cut off at 2.25 standard deviations, measured on circles.
-  constexpr double kHalf = 0.47;
+void compensate_curvature_bias(double along_px, double bias_share, const Edge& edge,
+                               Edgels& edgels) {
   const std::size_t count = edge.edgels.count;
   if (count <= 2 * kReach) {
     return;
@@ -146,7 +145,7 @@ void compensate_curvature_bias(double along_px, const Edge& edge, Edgels& edgels
     const double ny = edgels.ny[at];
     const double sagitta =
         ((ahead.x + behind.x) / 2 - here.x) * nx + ((ahead.y + behind.y) / 2 - here.y) * ny;
-    const double inwards = kHalf * along_px * along_px * 2 * sagitta / squared_half;
+    const double inwards = bias_share * along_px * along_px * 2 * sagitta / squared_half;
     const double limit = kHalfPixel / std::max(std::abs(nx), std::abs(ny));
     const double shift = std::clamp(inwards, -limit, limit);
     const double x = std::floor(here.x + 0.5);
@@ -161,17 +160,18 @@ void compensate_curvature_bias(double along_px, const Edge& edge, Edgels& edgels
 }  // namespace
 
 void refine_positions(ImageView<const float> response, KernelSize kernel, double noise,
-                      EdgeSet& edges) {
-  constexpr double kSigmaTimesStrength = 1.25;  // of kernels of this area
-  constexpr double kArea = 1.2 * 2.5;
+                      EdgeSet& edges, const SubpixelTuning& tuning) {
+  const double measured_area_px =
+      tuning.measured_kernel.across_px * tuning.measured_kernel.along_px;
   const double sigma_times_strength =
-      kSigmaTimesStrength * noise * std::sqrt(kernel.across_px * kernel.along_px / kArea);
+      tuning.sigma_times_response * noise *
+      std::sqrt(kernel.across_px * kernel.along_px / measured_area_px);
   LogWindow window(response);
   for (std::size_t i = 0; i < edges.edgels.size(); ++i) {
-    move_to_ridge(response, sigma_times_strength, window, edges.edgels, i);
+    move_to_ridge(response, sigma_times_strength, tuning.least_sigma_px, window, edges.edgels, i);
   }
   for (const Edge& edge : edges.edges) {
-    compensate_curvature_bias(kernel.along_px, edge, edges.edgels);
+    compensate_curvature_bias(kernel.along_px, tuning.curvature_bias_share, edge, edges.edgels);
   }
 }
 

@@ -64,6 +64,17 @@ TEST(GapCloser, RefusesAGapWithoutAStep) {
   EXPECT_EQ(bridge({left, right}, corner_frame(20.5, 29, 1050)).contours.items.size(), 2U);
 }
 
+TEST(GapCloser, TuningSaysUpToWhatLengthABridgeNeedsNoStep) {
+  const auto left = straight({20, 20}, {30, 20});
+  const auto right = straight({38, 20}, {60, 20});
+  LinkedContours bridged;
+  const std::vector<std::uint8_t> all(2, 1);
+  ASSERT_TRUE(
+      GapCloser({}, {.unseen_px = 8})
+          .run(linked(contour_set({left, right})), corner_frame(20.5, 29, 1050), all, bridged));
+  EXPECT_EQ(bridged.contours.items.size(), 1U);
+}
+
 // Warmer below on one side of the gap, warmer above on the other.
 TEST(GapCloser, RefusesAStepTheOtherWayRound) {
   Image<float> frame = step_frame(20.5);

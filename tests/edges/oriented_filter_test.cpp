@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -101,6 +102,17 @@ TEST(OrientedFilterBank, AStepAnswersInUnitsOfTheNoise) {
   const Found five = find(step(0, 100), 5);
   EXPECT_NEAR(five.response(50, 50), 2 * ten.response(50, 50), 1e-3);
   EXPECT_NEAR(ten.response(50, 50) / 10, 2.4, 0.3);
+}
+
+TEST(OrientedFilterBank, TuningSaysWhereTheSidesOfAnEdgeLie) {
+  const Image<float> frame = step(0, 100);
+  const auto response_over_sides = [&](std::array<int, 2> sides) {
+    OrientedFilterBank filter({}, {.side_distances_px = sides});
+    const auto runner = make_runner(1);
+    const auto found = filter.run(frame, 10, 1, *runner);
+    return found ? found->suppressed_response(50, 50) : 0.0F;
+  };
+  EXPECT_LT(response_over_sides({1, 1}), 0.5F * response_over_sides({4, 8}));
 }
 
 TEST(OrientedFilterBank, ASlopeIsNoEdge) {

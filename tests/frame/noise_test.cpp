@@ -81,6 +81,12 @@ Image<std::uint16_t> render(const Scene& scene) {
   return frame;
 }
 
+TEST(Noise, TuningSaysHowSmallAFrameMayBe) {
+  const auto frame = noise_image<std::uint16_t>(40, 30, 3000, 6, 1);
+  EXPECT_GT(NoiseEstimator().measure(frame).sigma_counts, 3);
+  EXPECT_EQ(NoiseEstimator({.smallest_side_px = 31}).measure(frame).sigma_counts, 0);
+}
+
 TEST(Noise, IsMeasuredOnPureNoise) {
   NoiseEstimator estimator;
   double sum = 0;

@@ -98,6 +98,18 @@ double left_over(const std::vector<float>& found, const std::vector<double>& tru
   return std::sqrt(squares / (n - 2 * kReach));
 }
 
+TEST(Stripes, TuningSaysFromWhatStrengthOn) {
+  Scene scene;
+  scene.stripe_sigmas = 1.0 / 3;
+  const Rendered rendered = render(scene);
+  StripeOffsets found;
+  const auto runner = make_runner(1);
+  StripeFinder().measure(rendered.frame, scene.sigma, *runner, found);
+  EXPECT_FALSE(found.columns.empty());
+  StripeFinder({.least_variance_ratio = 1e6}).measure(rendered.frame, scene.sigma, *runner, found);
+  EXPECT_TRUE(found.columns.empty());
+}
+
 TEST(Stripes, AreRemovedToATwelfthOfTheNoise) {
   for (const auto& [stripe, left] : {std::pair{0.15, 0.08}, {1.0 / 3, 0.08}, {1.0, 0.1}}) {
     for (unsigned seed = 1; seed <= 6; ++seed) {

@@ -121,6 +121,18 @@ TEST_P(SuggestedGain, IsTheFinestThatClipsLittle) {
   EXPECT_EQ(options.empty() ? "" : options[0].value, GetParam().gain);
 }
 
+TEST(SuggestedOptions, TuningSaysHowMuchMayBeClipped) {
+  RecordingReport report;
+  report.container_bits = 16;
+  report.sigma_counts = report.frame_sigma_counts = 5;
+  report.width = 640;
+  report.height = 512;
+  report.clipping = {{1, 0.4}, {0.5, 0.16}, {0.2, 0.01}, {0.1, 0}};
+  const auto options = suggest_options(report, Preset::kPaper, {.most_clipped_share = 0.005});
+  ASSERT_FALSE(options.empty());
+  EXPECT_EQ(options[0].value, "0.1");
+}
+
 INSTANTIATE_TEST_SUITE_P(
     All, SuggestedGain,
     testing::Values(

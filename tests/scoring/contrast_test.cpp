@@ -248,6 +248,23 @@ TEST(Proof, ASlopeIsNoEdge) {
   EXPECT_NEAR(edge.z, 0, 1e-9);
 }
 
+TEST(Proof, TuningSaysHowFarOutContrastIsTaken) {
+  Image<std::uint16_t> slope(60, 80);
+  for (int y = 0; y < 80; ++y) {
+    for (int x = 0; x < 60; ++x) {
+      slope(x, y) = static_cast<std::uint16_t>(3000 + 4 * x);
+    }
+  }
+  EdgeSet set;
+  add_edge(set, vertical_line(30, 5, 75));
+  test_significance(slope, 5, upright_directions(60, 80), {}, set,
+                    {.contrast = {.nearest_px = 2.5, .farthest_px = 3.5}});
+  EXPECT_NEAR(set.edges[0].contrast_counts, 4 * 6, 1e-9);
+  test_significance(slope, 5, upright_directions(60, 80), {}, set,
+                    {.contrast = {.nearest_px = 2.5, .farthest_px = 4.5}});
+  EXPECT_NEAR(set.edges[0].contrast_counts, 4 * 7, 1e-9);
+}
+
 TEST(Proof, StripesMayHaveMadeAnEdgeAlongAnAxis) {
   const auto frame = step_frame(60, 80, 50, 0.5, 5, [](int x, int) { return x - 30.0; });
   const double samples = 4 * 70;

@@ -320,6 +320,16 @@ TEST(Scorer, PixelsWithoutProminenceCountForTheLengthOnly) {
   EXPECT_TRUE(std::isfinite(saliency(pixels, suppressed_response)));
 }
 
+TEST(Saliency, TuningWeighsTheLength) {
+  Image<float> suppressed_response(50, 30);
+  fill_pixels(suppressed_response.view(), 3.0F);
+  const auto pixels = straight({10, 10}, {29, 10});
+  EXPECT_NEAR(saliency(pixels, suppressed_response, {.length_weight = 0.5}),
+              std::log(3.0) + 0.5 * std::log(20.0), 1e-9);
+  EXPECT_NEAR(saliency(pixels, suppressed_response, {.least_mean = 5, .length_weight = 0}),
+              std::log(5.0), 1e-9);
+}
+
 TEST(Scorer, StrengthFallsWithTheRank) {
   Frame frame;
   for (int i = 0; i < 5; ++i) {

@@ -114,6 +114,23 @@ TEST(EdgeSelector, KeepsTheJunctionsOfKeptEdges) {
   EXPECT_EQ(set.junctions[0].at, (Pixel{5, 1}));
 }
 
+TEST(EdgeSelector, TuningSaysHowNearEdgesMeetAtAJunction) {
+  for (const int reach : {0, 1}) {
+    EdgeSet set = four_edges({-9, -9, -9, -9}, {4, 3, 2, 1});
+    for (const Edge& edge : set.edges) {
+      for (std::uint32_t k = 0; k < edge.edgels.count; ++k) {
+        set.edgels.x[edge.edgels.first + k] = static_cast<float>(k);
+        set.edgels.y[edge.edgels.first + k] = static_cast<float>(2 * edge.index);
+      }
+    }
+    set.junctions = {{{5, 1}}};
+    EdgeSelector selector({2, 0}, {.junction_reach_px = reach});
+    ASSERT_TRUE(selector.run(set));
+    selector.keep_junctions(60, 20, set);
+    EXPECT_EQ(set.junctions.size(), reach == 0 ? 0U : 1U);
+  }
+}
+
 TEST(EdgeSelector, RefusesBudgetsBelowZero) {
   EdgeSet set;
   EXPECT_FALSE(EdgeSelector({-1, 0}).run(set));

@@ -53,6 +53,17 @@ TEST(RefinePositions, AreExactOnAGaussianRidge) {
   }
 }
 
+TEST(RefinePositions, TuningScalesTheStatedDeviation) {
+  const auto deviation = [](const SubpixelTuning& tuning) {
+    EdgeSet set = one_edgel(5, 5, 0);
+    refine_positions(ridge(0, 0), KernelSize{1.2, 2.5}, 1, set, tuning);
+    return set.edgels.position_sigma_px[0];
+  };
+  EXPECT_FLOAT_EQ(deviation({}), 1.25F / 20);
+  EXPECT_FLOAT_EQ(deviation({.sigma_times_response = 2.5}), 2.5F / 20);
+  EXPECT_FLOAT_EQ(deviation({.measured_kernel = {4.8, 2.5}}), 1.25F / 40);
+}
+
 TEST(RefinePositions, NeverLeaveThePixel) {
   EdgeSet set = one_edgel(5, 5, 0);
   refine_positions(ridge(0, 3), KernelSize{1.2, 2.5}, 1, set);

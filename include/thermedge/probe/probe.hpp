@@ -2,6 +2,7 @@
 // options of the detector suit it.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -133,12 +134,37 @@ struct RecordingReport {
   [[nodiscard]] double clipped_share(double gain) const;
 };
 
+// From where on an option is suggested. Values that no line gives a source for are chosen so that
+// recordings that need nothing get no suggestion.
+struct SuggestionTuning {
+  double most_clipped_share = 0.02;  // of the pixels, that a gain may clip, 0..1
+  double coarsest_level_sigmas = 2;  // a level coarser than this many sigma hides what noise leaves
+  double finest_level_sigmas = 0.25;  // a level finer than this many sigma shows noise alone
+  double sigma_tolerance = 0.05;  // relative difference between the two measurements of noise that
+                                  // matters; NoiseEstimator is within .02
+  double stripes_sigmas = 0.2;    // least stripes in units of the noise: strong edges alone look
+                                  // like an eighth (noise.hpp)
+  double passing_share = 2e-4;    // of the pixels, that are taken for dead and soon recover, 0..1
+  double threshold_factor = 2;    // on bad_pixels.threshold_sigmas, where there are more
+  double small_frame_scale = 0.75;  // below this part of the paper's frames (width and height
+                                    // together) limits in pixels shrink with the frame
+};
+
+struct ProbeTuning {
+  std::size_t most_samples = 4096;   // of the series: memory against detail
+  std::int64_t shutter_repeats = 2;  // least repeats of a frame that a closed shutter makes; one
+                                     // alone is a frame that came late
+  std::int64_t least_frames_for_dead_pixels = 3;  // fewer do not tell lasting from passing
+  double range_tail_share = 0.01;  // robust_range_counts leaves out this share at both ends, 0..0.5
+  SuggestionTuning suggestions = {};
+};
+
 // Looks at a recording frame by frame. Memory: a few pictures, whatever the number of frames.
 // After the second frame add() allocates nothing. Not thread-safe: one probe per thread.
 // The same frames give the same report everywhere. Cost: about 10 ms a frame of 382x288.
 class RecordingProbe {
  public:
-  explicit RecordingProbe(const ProbeOptions& options = {});
+  explicit RecordingProbe(const ProbeOptions& options = {}, const ProbeTuning& tuning = {});
   RecordingProbe(RecordingProbe&&) noexcept;
   RecordingProbe& operator=(RecordingProbe&&) noexcept;
   ~RecordingProbe();
@@ -158,6 +184,7 @@ class RecordingProbe {
 // The options of a preset that suit a recording, in the order of the detector's list; fills
 // `suggested`.
 [[nodiscard]] std::vector<SuggestedOption> suggest_options(const RecordingReport& report,
-                                                           Preset preset);
+                                                           Preset preset,
+                                                           const SuggestionTuning& tuning = {});
 
 }  // namespace thermedge

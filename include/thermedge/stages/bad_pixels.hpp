@@ -27,6 +27,15 @@ void visit_options(O& o, V&& v) {
     "how far outside its neighbours' range a pixel is dead, in sigma");
 }
 
+struct BadPixelTuning {
+  // How far a real point may stand out of its neighbours, in units of how far these stand out of
+  // the pixels around them: what optics with a blur of 0.7 px and more allow. A larger one misses
+  // dead pixels beside edges, a smaller one takes points of the scene for dead.
+  int optics_ratio = 2;
+  double least_sigma_counts = 1;  // noise assumed where less is measured: counts are whole numbers
+  int smallest_side_px = 5;       // frames with a shorter side are left alone: no 5x5 neighbourhood
+};
+
 struct BadPixel {
   int x = 0;
   int y = 0;
@@ -38,11 +47,12 @@ struct BadPixel {
 // A pixel is dead where it lies `threshold_sigmas` outside the range of its eight neighbours, of
 // which the most extreme one is left out, because dead pixels come in pairs; and where it lies
 // farther outside than optics allow: these spread a real point over its neighbours, so it can't
-// stand out of them by more than twice what they stand out of the pixels around them (blur of 0.7
-// px and more). So a dead pixel beside a strong edge is found only when it is off by twice the
-// contrast. `sigma_counts` as measured; below 1 count it is taken as 1. Frames under 5 px a side
-// are left as they are. Thread-safe. Cost: about 0.1 ms for 382x288.
+// stand out of them by more than optics_ratio times what they stand out of the pixels around them
+// (blur of 0.7 px and more). So a dead pixel beside a strong edge is found only when it is off by
+// twice the contrast. `sigma_counts` as measured; at least least_sigma_counts. Frames under
+// smallest_side_px a side are left as they are. Thread-safe. Cost: about 0.1 ms for 382x288.
 void replace_bad_pixels(ImageView<std::uint16_t> frame, double sigma_counts,
-                        const BadPixelOptions& options, std::vector<BadPixel>& dead);
+                        const BadPixelOptions& options, std::vector<BadPixel>& dead,
+                        const BadPixelTuning& tuning = {});
 
 }  // namespace thermedge

@@ -1,12 +1,23 @@
 // Contrast and normals of edges, measured on the frame.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include "thermedge/edge_set.hpp"
 #include "thermedge/image.hpp"
 
 namespace thermedge {
+
+// Distances from an edgel along its normal. Nearer samples lie on the blurred step itself, farther
+// ones across the next edge. Every whole step from the nearest to the farthest is sampled.
+struct ContrastTuning {
+  // At most kMostSteps samples to a side: the size of an array on the stack.
+  static constexpr std::size_t kMostSteps = 4;
+  double nearest_px = 1.5;   // beyond the flank of optics with a blur of about 1 px; contrast from
+                             // 3.5 px on only loses .007 of F at s20 (docs/tuning.md)
+  double farthest_px = 3.5;  // of measure_contrast: edges 7 px apart do not see each other
+};
 
 // Fills nx, ny, magnitude_counts and position_sigma_px of the edgels, and contrast_counts, z and
 // log10_nfa of the edges, from the counts before denoising. Everything else must be set.
@@ -23,7 +34,8 @@ namespace thermedge {
 // the profile crosses its middle by sigma / slope, where slope is the magnitude, at least its own
 // noise sigma / sqrt(2); whole pixels add 1 / sqrt(12) px: sqrt(1/12 + (sigma / slope)^2), 0.29
 // .. 1.44 px. Thread-safe. Cost: about 0.1 us per edgel.
-void measure_contrast(ImageView<const std::uint16_t> frame, double sigma_counts, EdgeSet& edges);
+void measure_contrast(ImageView<const std::uint16_t> frame, double sigma_counts, EdgeSet& edges,
+                      const ContrastTuning& tuning = {});
 
 // Normals from the shape alone, for edges that came without a frame: smoothed as above, to the
 // right of the walking direction as seen on the picture.

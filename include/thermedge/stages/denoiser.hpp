@@ -111,6 +111,41 @@ void visit_options(O& o, V&& v) {
   v.group("bilateral", o.bilateral);
 }
 
+// Standard deviations of the Gaussian.
+struct GaussianTuning {
+  double cutoff_sigmas = 4;   // where the kernel ends: 6e-5 of its weight is beyond, against time
+  double narrowest_px = 0.1;  // as good as no filter: neighbours weigh e^-50
+};
+
+struct NlmTuning {
+  // Weights below e^-negligible_exponent are as good as none, which bounds the distances: the
+  // levels of the pixels that patches are compared by are the finer the smaller it is.
+  double negligible_exponent = 16;
+};
+
+// Where blocks are sought. Measured: docs/benchmarks.md, list of what each part of BM3D does.
+struct Bm3dTuning {
+  int dense_radius_px = 6;  // up to which all displacements are candidates, farther off every other
+                            // one: half the distances, no loss that can be measured
+  // Sides of the squares of displacements that give one block to a group, near by and farther off.
+  // Blocks that overlap almost wholly share their noise; too large a side leaves out good matches.
+  int dense_class_px = 2;
+  int sparse_class_px = 4;
+};
+
+struct BilateralTuning {
+  double reach_sigmas = 1.6;  // where the weights over distance end, in units of space_px: time
+                              // against smoothness, e^-1.3 is cut off
+};
+
+// Not options: they belong to the methods as they are, and stay out of --dump-config.
+struct DenoiseTuning {
+  GaussianTuning gaussian = {};
+  NlmTuning nlm = {};
+  Bm3dTuning bm3d = {};
+  BilateralTuning bilateral = {};
+};
+
 // To the nearest whole counts, within 0..65535. `out` has the size of `in`. Thread-safe.
 void round_to_counts(ImageView<const float> in, ImageView<std::uint16_t> out);
 
@@ -119,7 +154,7 @@ void round_to_counts(ImageView<const float> in, ImageView<std::uint16_t> out);
 // The result is bit-identical for every ParallelRunner and SIMD target.
 class Denoiser {
  public:
-  explicit Denoiser(const DenoiseOptions& options);
+  explicit Denoiser(const DenoiseOptions& options, const DenoiseTuning& tuning = {});
   Denoiser(Denoiser&&) noexcept;
   Denoiser& operator=(Denoiser&&) noexcept;
   ~Denoiser();

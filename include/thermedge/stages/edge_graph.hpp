@@ -34,16 +34,22 @@ void visit_options(O& o, V&& v) {
   v("closed_length_gaps", o.closed_length_gaps, Bounds{0, 1000}, "... that is so many gaps long");
 }
 
+struct GraphTuning {
+  std::size_t direction_pixels = 8;  // last pixels of a segment that tell its direction: fewer see
+                                     // the steps between pixels, more see past a bend
+};
+
 // Thins the edge map, the weakest pixels first, so that the ridge remains; splits it at its
 // junctions into segments; joins at each junction the two that go on most smoothly, and of the
 // others again, as long as they turn no more than max_turn_deg. The directions of segments are
-// those of their last 8 pixels. Closed curves have no ends. What the curves are does not depend on
-// the order in which pixels are visited, except for ties of response: the flipped or transposed map
-// gives the flipped or transposed curves.
-// One object per thread; allocates on the first frame of a size only.
+// those of their last direction_pixels. Closed curves have no ends. What the curves are does not
+// depend on the order in which pixels are visited, except for ties of response: the flipped or
+// transposed map gives the flipped or transposed curves. One object per thread; allocates on the
+// first frame of a size only.
 class GraphTracer {
  public:
-  explicit GraphTracer(const GraphOptions& options) : options_(options) {}
+  explicit GraphTracer(const GraphOptions& options, const GraphTuning& tuning = {})
+      : options_(options), tuning_(tuning) {}
 
   // `edges`: nonzero = edge; `response`, of the same size: which of two pixels side by side stays.
   // `curves` is cleared first; its links are of type kEndToMiddle, its junctions the pixels where
@@ -106,6 +112,7 @@ class GraphTracer {
   void connect_ends(LinkedContours& curves);
 
   GraphOptions options_;
+  GraphTuning tuning_;
   ImageView<const float> strength_;   // of this run
   Image<std::uint8_t> map_;           // with a border of 1 pixel; 1: edge
   Image<std::uint8_t> neighbours_;    // a bit for each step to a connected pixel

@@ -35,6 +35,25 @@ void visit_options(O& o, V&& v) {
     "contrast across a bridge, as a share of that across the end before it");
 }
 
+// Bridges as a whole raise F at s20 from .870 to .878 (docs/tuning.md, "bridges"). No field is
+// measured on its own: a line tells what its value trades off.
+struct GapClosingTuning {
+  int tip_pixels = 10;  // last pixels that tell the direction of an end and the contrast across it:
+                        // fewer see the steps between pixels, more see past a bend
+  double side_px = 2;  // to either side of a bridge its contrast is taken: nearer is on the blurred
+                       // step, farther may be across the next edge
+  double unseen_px = 2;  // bridges up to this length need no contrast: too few pixels to tell
+  double turn_cost = 2;  // added to the length of a bridge for a turn by 90 degrees, in its
+                         // lengths: a larger one prefers far targets that lie straight ahead
+  int tip_reach_px = 4;  // a curve met within this of its end is met at its end, px
+  double own_gaps = 4;   // an end may be bridged to its own curve where it is more than this many
+                         // times gap_px along the curve: fewer close small hooks
+  double step_px = 0.5;  // between the samples along a bridge: time against precision
+  // Sine of the angle below which two ends do not head for a corner, 0..1: nearly parallel lines
+  // meet anywhere.
+  double least_corner_sine = 0.4;
+};
+
 // Where an edge meets a stronger one, the ridge of its gradient ends some pixels before, and a weak
 // stretch makes a gap. From each free end, the shortest, straightest bridge to another curve, to an
 // end or to the frame's border is taken, if the step that the edge has goes on across it. Bridges
@@ -44,7 +63,8 @@ void visit_options(O& o, V&& v) {
 // One object per thread; allocates on the first frame of a size only.
 class GapCloser {
  public:
-  explicit GapCloser(const GapClosingOptions& options) : options_(options) {}
+  explicit GapCloser(const GapClosingOptions& options, const GapClosingTuning& tuning = {})
+      : options_(options), tuning_(tuning) {}
 
   // `frame`: what the edges were found on. `eligible`, one for each curve: 0 where it is not worth
   // a bridge. `bridged` is cleared first; links of type 2 go over into it. Errors: an option out of
@@ -103,6 +123,7 @@ class GapCloser {
   void join(const ContourSet& contours, LinkedContours& bridged);
 
   GapClosingOptions options_;
+  GapClosingTuning tuning_;
   detail::CurveChains chains_;
   std::vector<Pixel> window_;    // offsets within gap_px, nearest first
   std::vector<Offset> offsets_;  // the same

@@ -10,11 +10,18 @@
 
 namespace thermedge {
 
-// All in counts; 0 where the frame is too small to tell (under 8x8).
+// All in counts; 0 where the frame is too small to tell (under 8 px a side).
 struct NoiseEstimate {
   double sigma_counts = 0;         // temporal + pixel noise, standard deviation
   double column_sigma_counts = 0;  // stripes along columns, standard deviation of their offsets
   double row_sigma_counts = 0;     // stripes along rows
+};
+
+struct NoiseTuning {
+  int smallest_side_px = 8;  // shorter sides give no estimate: the median is of too few pixels
+  int stripe_samples =
+      96;  // second differences per column (row), spread over its length: precision
+           // against time; what NoiseEstimator measured is with this number
 };
 
 // Pixel noise by the robust high-pass: the residual of [1 -2 1] x [1 -2 1] / 6 (unit gain for white
@@ -28,6 +35,8 @@ struct NoiseEstimate {
 // steps: the same result everywhere. Cost: about 0.3 ms for 382x288.
 class NoiseEstimator {
  public:
+  explicit NoiseEstimator(const NoiseTuning& tuning = {}) : tuning_(tuning) {}
+
   [[nodiscard]] NoiseEstimate measure(ImageView<const std::uint16_t> frame);
 
   // Memory held, bytes.
@@ -43,6 +52,7 @@ class NoiseEstimator {
   ImageView<const std::int32_t> sample_along_rows();
   ImageView<const std::int32_t> sample_along_columns();
 
+  NoiseTuning tuning_;
   Image<std::uint16_t> frame_;             // copy whose rows may be read past their end
   Image<std::uint16_t> residual_, slope_;  // without the border
   std::vector<std::uint32_t> histogram_;

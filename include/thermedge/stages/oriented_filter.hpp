@@ -1,6 +1,8 @@
 // Edge pixels by short oriented kernels, in units of the noise.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 
@@ -42,6 +44,39 @@ void visit_options(O& o, V&& v) {
     "its response, in noise, from which it decides");
 }
 
+// Steps of 15 degrees: the orientations of edges, and their directions with the side that is
+// warmer.
+inline constexpr int kEdgeOrientations = 12;
+inline constexpr int kEdgeDirections = 2 * kEdgeOrientations;
+
+// "Measured" refers to the table of docs/tuning.md: mask F on simulated scenes with a range of 130
+// counts and noise of 20, 8 and 0 counts. Where a line names no measurement, it tells what the
+// value trades off.
+struct OrientedFilterTuning {
+  static constexpr std::size_t kSides = 2;
+  // How far to both sides the response is compared that an edge has to be over, px, ascending; the
+  // farther pair in noise only. Measured: "what lies 4 px to both sides", "sides 8 px away too".
+  std::array<int, kSides> side_distances_px = {4, 8};
+  double far_sides_from = 0.5;  // least noisiness (0..1) with the farther pair: denoisers blur
+                                // faint edges, but two clean edges 8 px apart suppress each other
+  int kernel_steps = 8;  // sizes between the clean kernels and those for noise: memory
+                         // against evenness over the noise
+  // Where kernels are cut off, in standard deviations: of the Gaussian across, whose tails bias the
+  // derivative, and of the line along it, where shorter is faster. compensate_curvature_bias
+  // (subpixel.hpp) is measured with the latter.
+  double derivative_cutoff_sigmas = 3.5;
+  double line_cutoff_sigmas = 2.25;
+  // Longest line to one side, px: the size of arrays. The largest along_px (4) needs 9.
+  static constexpr int kMaxLineRadius = 10;
+  // Groups of the fine derivative with fewer pixels are left out: noise makes small ones.
+  std::size_t fine_group_px = 8;
+  double fine_low_ratio = 0.6;  // low threshold of the fine derivative, of the high one: a lower
+                                // one lets groups grow into noise
+  // Half the widths of the rows of the disc around a fine edge in which it replaces the others, px.
+  // A constant, as the number of rows is its size.
+  static constexpr std::array kFineHalfWidthsPx = {0, 1, 2, 1, 0};
+};
+
 // Standard deviations.
 struct KernelSize {
   double across_px;
@@ -72,14 +107,14 @@ struct OrientedFilterResult {
 // first frame of a size only.
 class OrientedFilterBank {
  public:
-  explicit OrientedFilterBank(const OrientedFilterOptions& options);
+  explicit OrientedFilterBank(const OrientedFilterOptions& options,
+                              const OrientedFilterTuning& tuning = {});
   OrientedFilterBank(OrientedFilterBank&&) noexcept;
   OrientedFilterBank& operator=(OrientedFilterBank&&) noexcept;
   ~OrientedFilterBank();
 
   // `in`: counts, denoised or not; `sigma_counts` > 0: the noise before denoising; `noisiness`: how
-  // much of a burden it is, 0 (the short clean kernels) to 1 (the long ones). From a half up, the
-  // sides that an edge has to be over may lie 8 px away too: denoisers blur faint edges.
+  // much of a burden it is, 0 (the short clean kernels) to 1 (the long ones).
   // Errors: empty frame; sigma not positive or not finite; noisiness out of range; an option out of
   // range; a pixel that is NaN, infinite or beyond 1e18.
   [[nodiscard]] Result<OrientedFilterResult> run(ImageView<const float> in, double sigma_counts,

@@ -29,6 +29,18 @@ void visit_options(O& o, V&& v) {
   v("loop_line_ratio", o.loop_line_ratio, Bounds{1e-6, 1e6}, "Phi of a loop (a line has 1)");
 }
 
+// Of the score by saliency. Chosen on the simulated scenes of docs/tuning.md.
+struct ScoringTuning {
+  double least_mean = 0.02;  // least mean suppressed response, in units of the noise, so that the
+                             // logarithm is finite; far below the low threshold of the edge pixels
+  double length_weight = 0.25;  // of log N against log of the mean response: a larger one prefers
+                                // long edges to strong ones, and noise makes no long edges
+  // Scores between which display_strength rises from 0 to 1: hardly there, and a wall at a hundred
+  // times the noise. For pictures only.
+  double faintest_score = -1.5;
+  double strongest_score = 4.5;
+};
+
 // Residual sum of squares of the least-squares cubic y = a x^3 + b x^2 + c x + d through points
 // (eqs. 14-15), px^2; of the minimum-norm solution where fewer than four abscissae differ. What is
 // below 1e-9, no more than rounding, is 0. No points: 0.
@@ -47,24 +59,26 @@ struct EdgeScoreTerms {
 // ES = AR W L M^2 / (N^2 N' Phi) (eq. 18): smaller is smoother, longer, better connected.
 [[nodiscard]] double edge_score(const EdgeScoreTerms& terms);
 
-// log(mean suppressed_response) + 0.25 log N of a curve, the mean over the pixels that have one
-// (above 0).
+// log(mean suppressed_response) + length_weight log N of a curve, the mean over the pixels that
+// have one (above 0).
 [[nodiscard]] double saliency(std::span<const Pixel> pixels,
-                              ImageView<const float> suppressed_response);
+                              ImageView<const float> suppressed_response,
+                              const ScoringTuning& tuning = {});
 
 // Scores and ranks: fills `edges` from linked contours and their corners, best first. Ties: the
 // edge with more points, then the earlier contour. The id of an edge is its rank. Everything but
 // the measured fields (normals, magnitude, contrast, z, NFA; measure.hpp) and what is kept
 // (selection.hpp) is set.
 // The score is -ES, or, given the suppressed_response of edge pixels in units of the noise,
-// log(mean suppressed_response) + 0.25 log N: larger is better then. Contrast counts more than
-// length, and smoothness not at all: ES prefers edges along the axis of the abscissae, and short
-// ones. Parts to be fitted run from corner to corner; the first and the last point of a curve,
-// closed or not, always count as corners here (P1 = C1, PN = CM), so that M >= 2. Paper: section 4,
-// Algorithm 6. One object per thread; allocates on the first frame of a size only.
+// log(mean suppressed_response) + length_weight log N: larger is better then. Contrast counts more
+// than length, and smoothness not at all: ES prefers edges along the axis of the abscissae, and
+// short ones. Parts to be fitted run from corner to corner; the first and the last point of a
+// curve, closed or not, always count as corners here (P1 = C1, PN = CM), so that M >= 2. Paper:
+// section 4, Algorithm 6. One object per thread; allocates on the first frame of a size only.
 class Scorer {
  public:
-  explicit Scorer(const ScoringOptions& options) : options_(options) {}
+  explicit Scorer(const ScoringOptions& options, const ScoringTuning& tuning = {})
+      : options_(options), tuning_(tuning) {}
 
   // `width`, `height`: of the frame; `corners`: of `linked.contours`. `edges` is cleared first.
   // Errors: an option out of range.
@@ -106,6 +120,7 @@ class Scorer {
   void set_connections(EdgeSet& edges);
 
   ScoringOptions options_;
+  ScoringTuning tuning_;
   std::vector<Connection> connections_;  // both directions, ascending, distinct
   std::vector<Ranked> order_;            // best first
   std::vector<std::uint32_t> rank_of_;   // of each contour

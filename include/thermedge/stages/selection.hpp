@@ -33,19 +33,25 @@ void visit_options(O& o, V&& v) {
     "false edges expected in a frame of noise; edges above it are dropped (0: no test)");
 }
 
+struct SelectionTuning {
+  int junction_reach_px = 2;  // two kept edges within this of a junction meet there: edgels have
+                              // moved to the ridge, at most a pixel, and curves share its pixels
+};
+
 // Gives each edge its status: too weak, not significant, beyond a budget (the kept edges are the
 // longest row of best ones within both) or kept. Those that passed the tests come first, each part
 // in the order of its rank before; ids, ranks, connections and the edges of edgels follow.
 // Paper: Algorithm 6 (ET). One object per thread; allocates on the first frame of a size only.
 class EdgeSelector {
  public:
-  explicit EdgeSelector(const SelectionOptions& options) : options_(options) {}
+  explicit EdgeSelector(const SelectionOptions& options, const SelectionTuning& tuning = {})
+      : options_(options), tuning_(tuning) {}
 
   // Errors: an option out of range.
   [[nodiscard]] Status run(EdgeSet& edges);
 
-  // Leaves the junctions at which two kept edges meet (within 2 px); behind run. `width`, `height`:
-  // of the frame.
+  // Leaves the junctions at which two kept edges meet (within junction_reach_px); behind run.
+  // `width`, `height`: of the frame.
   void keep_junctions(int width, int height, EdgeSet& edges);
 
   // Memory held, bytes.
@@ -57,6 +63,7 @@ class EdgeSelector {
   void keep_best(EdgeSet& edges) const;
 
   SelectionOptions options_;
+  SelectionTuning tuning_;
   std::vector<std::int32_t> rank_of_;  // of each edge, by its rank before
   Image<std::int32_t> owner_;          // kept edge of each pixel, -1: none
 };

@@ -1,6 +1,8 @@
 // Fixed offsets of columns and rows, measured on one frame so that edges of the scene survive.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -24,6 +26,60 @@ void visit_options(O& o, V&& v) {
   v("remove", o.remove, Bounds{0, 1}, "remove the fixed offsets of columns and rows");
 }
 
+// Which pixels say nothing about stripes because an edge of the scene lies between them. Unit of
+// length: squares of 2x2 pixels. The mask as a whole is measured in docs/tuning.md ("stripes: a
+// mask for each direction"); no field was varied there on its own.
+struct StripeMaskTuning {
+  // Half the heights of the windows in which long faint edges show, squares: a taller one sees
+  // fainter edges, a lower one shorter edges.
+  std::array<int, 2> long_reach_squares = {5, 13};
+  double long_z = 2.5;  // least z of a window's mean: lower marks noise, higher leaves edges
+  double most_step_sigmas = 2.5;  // largest step that counts, in units of a step's noise, so that a
+                                  // short strong edge is no long faint one
+  // Quantile of the windows up to which there are no edges, 0..1; and the z below which this share
+  // of normal values lies, P(|Z| < z). The two belong together.
+  double edgeless_quantile = 0.2;
+  double edgeless_quantile_z = 0.2533;
+  int sample_step_squares = 5;  // rows between those that the quantile is taken of: precision
+                                // against time
+};
+
+// The measurements above StripeFinder are those of these values together. Where a line names no
+// measurement, it tells what the value trades off.
+struct StripeTuning {
+  // Differences between two pixels beyond this many sigma are edges of the scene, whatever the mask
+  // says: white noise is beyond 5 sigma, 3.5 of a difference, once in 2500 pairs.
+  double edge_sigmas = 5;
+  // Least gradient of an edge in each round after the first, in units of what pixel noise makes of
+  // it. Stripes are still in the way in the earlier ones.
+  std::array<double, 2> edge_gradients = {5.0, 4.5};
+  // Least z of a lasting jump of the profile: a lower one leaves stripes, a higher one takes edges
+  // along a whole column for stripes.
+  double jump_z = 6;
+  std::size_t most_jumps = 24;  // bounds the time
+  // Samples to either side that the test of a jump compares: long ones see small jumps, short ones
+  // two that are close. A constant, as the table of their deviations has its size.
+  static constexpr std::array kJumpWindows = {5, 8, 12, 18, 26};
+  int shortest_jump_side = 3;     // samples on either side of a jump
+  double least_pair_share = 0.1;  // of the height over which two columns are seen side by side,
+                                  // 0..1: fewer rows are too noisy
+  // Stripes are there where the variance of the offsets is this many times what pixel noise makes
+  // of them: a lower one removes offsets that are noise.
+  double least_variance_ratio = 1.5;
+  // Weight of the differences against the prior that offsets are small: as good as no prior, to see
+  // jumps; and for the result, where stripes have usual_stripes_sigmas. It grows with the square of
+  // stronger ones.
+  double no_prior = 1e4;
+  double prior = 2;
+  double usual_stripes_sigmas = 1.0 / 3;  // in units of the pixel noise (simulated PI450)
+  // Stripes from here on, in units of the pixel noise, leave so much before the last round that it
+  // looks like long faint edges, which are not looked for then.
+  double strong_stripes_sigmas = 0.6;
+  int smallest_side_px =
+      64;  // shorter sides give no offsets: too few columns tell jumps from stripes
+  StripeMaskTuning mask = {};
+};
+
 // In counts; empty where the frame shows no stripes, or is too small to tell.
 struct StripeOffsets {
   std::vector<float> columns;
@@ -44,13 +100,13 @@ struct StripeOffsets {
 // for every ParallelRunner and SIMD target.
 class StripeFinder {
  public:
-  StripeFinder();
+  explicit StripeFinder(const StripeTuning& tuning = {});
   StripeFinder(StripeFinder&&) noexcept;
   StripeFinder& operator=(StripeFinder&&) noexcept;
   ~StripeFinder();
 
   // `frame` without dead pixels, `sigma_counts` its pixel noise, as NoiseEstimator measures it.
-  // Sides under 64 px along or across give no offsets, nor does a sigma of 0.
+  // Sides under smallest_side_px along or across give no offsets, nor does a sigma of 0.
   void measure(ImageView<const std::uint16_t> frame, double sigma_counts, ParallelRunner& runner,
                StripeOffsets& offsets);
 
