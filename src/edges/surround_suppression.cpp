@@ -104,7 +104,7 @@ void OrientedFilterBank::Impl::suppress(int band, int y_begin, int y_end) {
 
 // Near fine edges only they are edges.
 void OrientedFilterBank::Impl::merge_fine() {
-  constexpr auto& kHalfWidths = OrientedFilterTuning::kFineHalfWidthsPx;
+  constexpr auto kHalfWidths = OrientedFilterTuning::kFineHalfWidthsPx;
   constexpr int kReach = static_cast<int>(kHalfWidths.size() / 2);
   const auto for_each_fine = [&](auto&& task) {
     for (int y = 1; y + 1 < height && width > 2; ++y) {

@@ -17,9 +17,9 @@ struct MotionTuning {
                                // makes, so that a flat picture has none
   float change_sigmas = 0.6F;  // change of a block's mean: more than 3 times what noise makes of
                                // the difference of two
-  int least_structured = 8;  // blocks with structure; with fewer a picture tells nothing
-  int moved_part = 3;        // the scene moved where one in this many of them changed: an object
-                             // alone changes fewer
+  int least_structured = 8;    // blocks with structure; with fewer a picture tells nothing
+  int moved_part = 3;          // the scene moved where one in this many of them changed: an object
+                               // alone changes fewer
 };
 
 // Compares the means of blocks of pixels with those of the last frame in which the scene had moved.

@@ -59,8 +59,8 @@ struct OrientedFilterTuning {
   std::array<int, kSides> side_distances_px = {4, 8};
   double far_sides_from = 0.5;  // least noisiness (0..1) with the farther pair: denoisers blur
                                 // faint edges, but two clean edges 8 px apart suppress each other
-  int kernel_steps = 8;  // sizes between the clean kernels and those for noise: memory
-                         // against evenness over the noise
+  int kernel_steps = 8;         // sizes between the clean kernels and those for noise: memory
+                                // against evenness over the noise
   // Where kernels are cut off, in standard deviations: of the Gaussian across, whose tails bias the
   // derivative, and of the line along it, where shorter is faster. compensate_curvature_bias
   // (subpixel.hpp) is measured with the latter.
