@@ -2,36 +2,11 @@
 
 #include <vector>
 
+#include "option_values.hpp"
 #include "thermedge/options.hpp"
 
 namespace thermedge::detail {
 namespace {
-
-// Whether two sets of options have the same values.
-class Values {
- public:
-  template <class T, class Limits>
-  void operator()(std::string_view, const T& value, const Limits&, std::string_view) {
-    values_.push_back(static_cast<double>(value));
-  }
-  template <class O>
-  void group(std::string_view, const O& options) {
-    visit_options(options, *this);
-  }
-  friend bool operator==(const Values&, const Values&) = default;
-
- private:
-  std::vector<double> values_;
-};
-
-template <class O>
-bool same_values(const O& a, const O& b) {
-  Values of_a;
-  Values of_b;
-  visit_options(a, of_a);
-  visit_options(b, of_b);
-  return of_a == of_b;
-}
 
 // Options of a denoiser that is not the chosen one have no effect.
 DenoiseOptions without_unused(DenoiseOptions options) {
@@ -71,9 +46,10 @@ FalseAlarmLookup look_up_false_alarms(const DenoiseOptions& denoise,
                                       const OrientedFilterOptions& filter) {
   bool denoiser_known = false;
   for (const Measured& measured : measured_models()) {
-    const bool same_denoiser = same_values(without_unused(denoise), measured.denoise);
+    const bool same_denoiser =
+        OptionValues(without_unused(denoise)) == OptionValues(measured.denoise);
     denoiser_known = denoiser_known || same_denoiser;
-    if (same_denoiser && same_values(filter, measured.filter)) {
+    if (same_denoiser && OptionValues(filter) == OptionValues(measured.filter)) {
       return {measured.model, {}};
     }
   }

@@ -1,24 +1,9 @@
 #include "thermedge/options.hpp"
 
-#include <array>
-#include <string_view>
-#include <vector>
+#include "option_values.hpp"
 
 namespace thermedge {
 namespace {
-
-// The values of a group, in the order of its list.
-class ValueReader {
- public:
-  template <class T, class Limits>
-  void operator()(std::string_view name, const T& value, const Limits&, std::string_view) {
-    names.emplace_back(name);
-    values.push_back(static_cast<double>(value));
-  }
-
-  std::vector<std::string_view> names;
-  std::vector<double> values;
-};
 
 // Fails where an option of a denoiser that is not the chosen one differs from the preset's.
 template <class Group>
@@ -27,10 +12,8 @@ Status check_unused(DenoiseMethod owner, DenoiseMethod chosen, const Group& opti
   if (owner == chosen) {
     return {};
   }
-  ValueReader set;
-  ValueReader usual;
-  visit_options(options, set);
-  visit_options(of_preset, usual);
+  const detail::OptionValues set(options);
+  const detail::OptionValues usual(of_preset);
   const auto name_of = [](DenoiseMethod method) {
     return std::string(kDenoiseMethods[static_cast<std::size_t>(method)].name);
   };
