@@ -7,33 +7,42 @@ PHOTOGRAPHS ?= ../shared/data/denoise
 # Random scenes for `make bench`; more of them give steadier figures and take longer.
 BENCH_SCENES ?= 8
 
-.PHONY: help build demo test check bench clean
+.PHONY: help configure build build-all demo quick test check bench clean
 
 help:
 	@echo "make build   the program at build/release/thermedge"
 	@echo "make demo    edges of simulated frames, pictures under demo/"
+	@echo "make quick   the tests that take little time"
 	@echo "make test    all tests"
 	@echo "make check   format, static analysis, tests under sanitizers"
 	@echo "make bench   speed and quality on this machine, beside OpenCV where it is installed (BENCH_SCENES=24: longer)"
 	@echo "make clean   remove what was built"
 
-build:
+configure:
 	@scripts/install_packages.sh build
 	@cmake --preset release >build-configure.log 2>&1 || { cat build-configure.log; exit 1; }
 	@rm -f build-configure.log
 	@echo "== building (the first time takes some minutes)"
-	@cmake --build --preset release
+
+build: configure
+	@cmake --build --preset release --target thermedge_cli
 	@echo "The program: build/release/thermedge --help"
+
+build-all: configure
+	@cmake --build --preset release
 
 demo: build
 	@scripts/demo.sh
 
-test: build
+quick: build-all
+	@ctest --preset release -L quick -j "$$(nproc)"
+
+test: build-all
 	@echo "== testing"
 	@ctest --preset release -j "$$(nproc)"
 	@echo "Details: build/release/Testing/Temporary/LastTest.log"
 
-check: build
+check: build-all
 	@scripts/install_packages.sh check
 	@scripts/check.sh
 

@@ -6,6 +6,7 @@
 #include "commands.hpp"
 #include "console.hpp"
 #include "thermedge/simd.hpp"
+#include "thermedge/version.hpp"
 
 namespace thermedge::cli {
 namespace {
@@ -13,7 +14,7 @@ namespace {
 int run(int argc, char** argv) {
   CLI::App program{"thermedge finds the smooth, connected edges in noisy thermal-infrared frames."};
   program.set_version_flag("--version",
-                           "thermedge " THERMEDGE_VERSION " (" + SimdTarget().name() + ")");
+                           std::string("thermedge ") + kVersion + " (" + SimdTarget().name() + ")");
   program.require_subcommand(1);
   program.failure_message([](const CLI::App*, const CLI::Error& error) {
     return std::string("thermedge: error: ") + error.what() + " (--help shows what there is)\n";

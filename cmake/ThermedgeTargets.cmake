@@ -81,14 +81,20 @@ function(thermedge_room room)
 endfunction()
 
 # thermedge_library(NAME SOURCES files... [HEADERS files...] [ROOMS rooms...] [PUBLIC libs...]
-#                   [PRIVATE libs...] [INCLUDE folder])
-# A library that is installed: shared or static as BUILD_SHARED_LIBS says. ROOMS are those whose
-# private headers it may include; INCLUDE holds its public headers where they are not in include/.
+#                   [PRIVATE libs...] [INCLUDE folder] [STATIC])
+# A library that is shared or static as BUILD_SHARED_LIBS says, or always static. ROOMS are those
+# whose private headers it may include; INCLUDE holds its public headers where they are not in
+# include/.
 function(thermedge_library name)
-  cmake_parse_arguments(ARG "" "INCLUDE" "SOURCES;HEADERS;ROOMS;PUBLIC;PRIVATE" ${ARGN})
-  add_library(${name} ${ARG_SOURCES})
+  cmake_parse_arguments(ARG "STATIC" "INCLUDE" "SOURCES;HEADERS;ROOMS;PUBLIC;PRIVATE" ${ARGN})
+  set(kind "")
+  if(ARG_STATIC)
+    set(kind STATIC)
+  endif()
+  add_library(${name} ${kind} ${ARG_SOURCES})
   target_include_directories(${name} PUBLIC
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>
+    $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/include>
     $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   if(ARG_INCLUDE)
     target_include_directories(${name} PUBLIC
@@ -101,6 +107,7 @@ function(thermedge_library name)
   target_compile_features(${name} PUBLIC cxx_std_20)
   set_target_properties(${name} PROPERTIES
     POSITION_INDEPENDENT_CODE ON
+    INSTALL_RPATH $ORIGIN
     VERSION ${PROJECT_VERSION}
     SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
   target_link_libraries(${name} PUBLIC ${ARG_PUBLIC}

@@ -12,6 +12,7 @@ git ls-files 'src/*.cpp' 'sim/*.cpp' 'figures/*.cpp' 'eval/*.cpp' 'cli/*.cpp' |
   xargs -P "$(nproc)" -n 2 clang-tidy --quiet -p build/release --warnings-as-errors='*' 2>/dev/null
 
 export UBSAN_OPTIONS=print_stacktrace=1
+export LSAN_OPTIONS="suppressions=$PWD/scripts/lsan_suppressions.txt:print_suppressions=0"
 export TSAN_OPTIONS="suppressions=$PWD/scripts/tsan_suppressions.txt"
 for preset in asan tsan; do
   echo "== tests under $preset"

@@ -39,7 +39,8 @@ class ParallelRunner {
 };
 
 // A ParallelRunner on `threads` threads (the caller's is one of them); 0 takes one for each core.
-// 1 runs the tasks in order on the caller's thread.
+// 1 runs the tasks in order on the caller's thread, and so does every number in a library that was
+// built without oneTBB.
 [[nodiscard]] std::unique_ptr<ParallelRunner> make_runner(int threads);
 
 }  // namespace thermedge

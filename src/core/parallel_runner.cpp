@@ -1,20 +1,11 @@
 #include "thermedge/parallel_runner.hpp"
 
-#include <oneapi/tbb/global_control.h>
-#include <oneapi/tbb/info.h>
-#include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/partitioner.h>
-#include <oneapi/tbb/task_arena.h>
-
-#include <algorithm>
-#include <atomic>
-
-#include "thermedge/simd.hpp"
+#ifdef THERMEDGE_WITH_TBB
+#include "tbb_runner.hpp"
+#endif
 
 namespace thermedge {
 namespace {
-
-constexpr int kMaxThreads = 1024;
 
 class SerialRunner final : public ParallelRunner {
  public:
@@ -26,75 +17,16 @@ class SerialRunner final : public ParallelRunner {
   [[nodiscard]] int threads() const override { return 1; }
 };
 
-// oneTBB prints a warning where more threads than cores are asked for, unless they are allowed.
-void allow_more_threads_than_cores() {
-  static const oneapi::tbb::global_control allowed(
-      oneapi::tbb::global_control::max_allowed_parallelism, kMaxThreads);
-}
-
-#if defined(__SANITIZE_THREAD__)
-#define THERMEDGE_THREAD_SANITIZER
-#elif defined(__has_feature)
-#if __has_feature(thread_sanitizer)
-#define THERMEDGE_THREAD_SANITIZER
-#endif
-#endif
-
-#ifdef THERMEDGE_THREAD_SANITIZER
-// Repeats what oneTBB guarantees (the tasks see the caller's writes, the caller sees theirs):
-// ThreadSanitizer cannot look into the library.
-class Handover {
- public:
-  Handover() { finished_.store(0, std::memory_order_release); }
-  ~Handover() { (void)finished_.load(std::memory_order_acquire); }
-  Handover(const Handover&) = delete;
-  Handover& operator=(const Handover&) = delete;
-  void begin_task() { (void)finished_.load(std::memory_order_acquire); }
-  void end_task() { finished_.fetch_add(1, std::memory_order_acq_rel); }
-
- private:
-  std::atomic<int> finished_;
-};
-#else
-struct Handover {
-  void begin_task() {}
-  void end_task() {}
-};
-#endif
-
-class TbbRunner final : public ParallelRunner {
- public:
-  explicit TbbRunner(int threads) : arena_(threads) {}
-  void run(int count, FunctionRef task) override {
-    [[maybe_unused]] Handover handover;
-    const SimdTarget simd = SimdScope::current();
-    arena_.execute([&] {
-      oneapi::tbb::parallel_for(
-          0, count, 1,
-          [&](int index) {
-            handover.begin_task();
-            const SimdScope scope(simd);
-            task(index);
-            handover.end_task();
-          },
-          oneapi::tbb::simple_partitioner{});
-    });
-  }
-  [[nodiscard]] int threads() const override { return arena_.max_concurrency(); }
-
- private:
-  oneapi::tbb::task_arena arena_;
-};
-
 }  // namespace
 
-std::unique_ptr<ParallelRunner> make_runner(int threads) {
-  const int count = threads > 0 ? threads : oneapi::tbb::info::default_concurrency();
-  if (count == 1) {
-    return std::make_unique<SerialRunner>();
+std::unique_ptr<ParallelRunner> make_runner([[maybe_unused]] int threads) {
+#ifdef THERMEDGE_WITH_TBB
+  const int count = threads > 0 ? threads : core_count();
+  if (count > 1) {
+    return make_tbb_runner(count);
   }
-  allow_more_threads_than_cores();
-  return std::make_unique<TbbRunner>(std::min(count, kMaxThreads));
+#endif
+  return std::make_unique<SerialRunner>();
 }
 
 }  // namespace thermedge

@@ -88,7 +88,9 @@ TEST(Bm3dTest, MirroredFramesGiveMirroredResults) {
   options.wiener = false;
   Image<float> expected(kWidth, kHeight);
   detail::Bm3d(detail::bm3d_settings(options)).run(in, {}, expected, *runner);
-  for (const auto& [mirror_x, mirror_y] : {std::pair{true, false}, {false, true}, {true, true}}) {
+  for (const auto& mirror : {std::pair{true, false}, {false, true}, {true, true}}) {
+    const bool mirror_x = mirror.first;
+    const bool mirror_y = mirror.second;
     const auto mirrored = [&](const Image<float>& image) {
       Image<float> out(kWidth, kHeight);
       for (int y = 0; y < kHeight; ++y) {

@@ -90,10 +90,10 @@ struct DenoiseOptions {
   double sigma_scale = 1;   // nlm and bm3d are told so many times the noise
   bool detrend = false;     // the smooth background is taken off before and put back after, so that
                             // no terraces are made of it
-  GaussianOptions gaussian;
-  NlmOptions nlm;
-  Bm3dOptions bm3d;
-  BilateralOptions bilateral;
+  GaussianOptions gaussian = {};
+  NlmOptions nlm = {};
+  Bm3dOptions bm3d = {};
+  BilateralOptions bilateral = {};
 
   // Fails with one line that names the option: out of its range, or at odds with another one.
   [[nodiscard]] Status check() const;
