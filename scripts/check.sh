@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Format, static analysis, and the tests under AddressSanitizer + UBSan and ThreadSanitizer.
+# Format, static analysis, a build with a second compiler, and the tests under AddressSanitizer + UBSan and ThreadSanitizer.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -12,6 +12,10 @@ git ls-files 'src/*.cpp' 'sim/*.cpp' 'figures/*.cpp' 'eval/*.cpp' 'cli/*.cpp' |
   xargs -P "$(nproc)" -n 2 clang-tidy --quiet -p build/release --warnings-as-errors='*' 2>/dev/null
 
 export UBSAN_OPTIONS=print_stacktrace=1
+echo "== a second compiler"
+cmake --preset clang >/dev/null
+cmake --build --preset clang
+
 export LSAN_OPTIONS="suppressions=$PWD/scripts/lsan_suppressions.txt:print_suppressions=0"
 export TSAN_OPTIONS="suppressions=$PWD/scripts/tsan_suppressions.txt"
 for preset in asan tsan; do

@@ -106,7 +106,9 @@ std::vector<BlockPosition> positions(const detail::BlockGroup& group) {
 
 // Few levels make ties, many make sums at the largest distance and differences that wrap.
 TEST(Bm3dMatchTest, FindsTheNearestBlocksOfEachRow) {
-  for (const auto& [width, height] : {std::pair{8, 8}, {12, 44}, {96, 12}, {140, 28}, {156, 24}}) {
+  for (const auto& size : {std::pair{8, 8}, {12, 44}, {96, 12}, {140, 28}, {156, 24}}) {
+    const int width = size.first;
+    const int height = size.second;
     for (const int radius : {4, 7, 16, 32}) {
       const bool with_adjacent = radius == 7;
       const detail::SearchPattern pattern(radius, with_adjacent);

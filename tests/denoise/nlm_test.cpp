@@ -19,8 +19,8 @@ int side_weight(int patch_px, int i) { return (patch_px + 1) / 2 - std::abs(i); 
 // The displacements looked at: a disc, thinned beyond half its radius.
 bool is_sampled(int dx, int dy, int search_px) {
   const double radius = std::hypot(dx, dy);
-  const double reach = search_px / 2;
-  return radius < reach + 0.5 && (radius <= reach / 2 || (dx % 2 == 0 && dy % 2 == 0));
+  const int reach = search_px / 2;
+  return radius < reach + 0.5 && (radius <= reach / 2.0 || (dx % 2 == 0 && dy % 2 == 0));
 }
 
 // The kernel's integer distance of the patches around (x, y) and (x + dx, y + dy), in coordinates
@@ -50,7 +50,10 @@ struct KernelCase {
 class NlmKernelTest : public testing::TestWithParam<KernelCase> {};
 
 TEST_P(NlmKernelTest, AgreesWithTheDefinitionOnEveryTarget) {
-  const auto [width, height, patch, search] = GetParam();
+  const int width = GetParam().width;
+  const int height = GetParam().height;
+  const int patch = GetParam().patch_px;
+  const int search = GetParam().search_px;
   const int margin = patch / 2 + search / 2;
   Image<float> values = test::noise_image<float>(width + 2 * margin, height + 2 * margin, 0, 2, 3);
   Image<std::uint16_t> levels(values.width(), values.height());

@@ -392,7 +392,7 @@ TEST(Detector, RunsOnTheCallersRunnerAndOutlivesNoResult) {
   const auto runner = make_runner(3);
   auto one = Detector::create({}, *runner);
   ASSERT_TRUE(one);
-  EXPECT_EQ(one->threads(), 3);
+  EXPECT_EQ(one->threads(), runner->threads());
   Detection found;
   ASSERT_TRUE(one->detect(frame.counts, found));
   one = Detector::create({});  // the first detector is gone, its result is not
