@@ -129,9 +129,9 @@ std::vector<Finder> one_finder(void (*run)(Levels, Map)) { return {{"defaults", 
 
 std::vector<Competitor> opencv_competitors() {
   const auto blurs = [] { return gaussian_fronts({0.7, 1.0, 1.5, 2.0, 3.0, 4.0}); };
-  return {{"Canny behind Gaussian", "OpenCV", {}, blurs(), canny_finders()},
-          {"Canny behind median", "OpenCV", {}, median_fronts(), canny_finders()},
-          {"Canny behind NL-means", "OpenCV", {}, nlm_fronts(), canny_finders()},
+  return {{"Canny after Gaussian", "OpenCV", {}, blurs(), canny_finders()},
+          {"Canny after median", "OpenCV", {}, median_fronts(), canny_finders()},
+          {"Canny after NL-means", "OpenCV", {}, nlm_fronts(), canny_finders()},
           {"Edge Drawing", "OpenCV", {}, blurs(), edge_drawing_finders()},
           {"EDPF", "OpenCV", {}, blurs(), one_finder(opencv_edpf)},
           {"LSD", "OpenCV", {}, blurs(), one_finder(opencv_lsd)}};

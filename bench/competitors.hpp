@@ -53,7 +53,7 @@ struct Competitor {
 // fronts.
 [[nodiscard]] std::vector<Competitor> detectors_on_levels();
 
-// OpenCV's Canny behind a Gaussian and EDPF behind one, from the least to the most cautious
+// OpenCV's Canny after a Gaussian and EDPF after one, from the least to the most cautious
 // setting; empty without OpenCV.
 [[nodiscard]] std::vector<Competitor> peers_for_detection();
 

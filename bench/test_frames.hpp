@@ -26,7 +26,7 @@ struct Disturbance {
 inline constexpr double kRangeCounts = 130;  // of random scenes
 inline constexpr double kMiddleCounts = 2700;
 
-// `clean` in counts, behind a sensor that `seed` tells apart.
+// `clean` in counts, as a sensor sees it that `seed` tells apart.
 [[nodiscard]] Image<std::uint16_t> expose(ImageView<const float> clean,
                                           const Disturbance& disturbance, std::uint64_t seed);
 
@@ -56,7 +56,7 @@ struct SingleEdge {
   std::vector<eval::Point> points;
 };
 // A step of `contrast_counts` and `length_px`, straight or an arc with a radius of 1.2 times its
-// length, at a place and direction of its own. It fades linearly over 70 px behind the edge and
+// length, at a place and direction of its own. It fades linearly over 70 px beyond the edge and
 // tapers over 12 px at its ends; optics of 1 px.
 [[nodiscard]] SingleEdge single_edge(double length_px, bool curved, double contrast_counts,
                                      std::uint64_t seed);

@@ -1,4 +1,4 @@
-// The light bilateral filter behind a denoiser.
+// The light bilateral filter after a denoiser.
 #pragma once
 
 #include <cstddef>

@@ -5,7 +5,7 @@
 
 namespace thermedge::detail {
 
-inline constexpr int kBilateralSlack = 16;  // elements that may be read and written behind the last
+inline constexpr int kBilateralSlack = 16;  // elements that may be read and written after the last
 
 // out[x] = c + sum over |k| = 1 .. radius of w (v - c) / (1 + sum of w), where c = centre[x], v =
 // centre[x + k step], w = weights[|k|] max(1 - (v - c)^2 / cut^2, 0)^4. `out` is not the input.

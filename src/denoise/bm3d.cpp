@@ -137,7 +137,7 @@ void Bm3d::filter_row(Stage stage, int y, BandScratch& scratch, const Accumulato
   for (int x = 0; x < kCellPx; x += settings_.step_px) {
     ReferenceRow row{x, y, columns_of(settings, y)};
     if (x > 0) {
-      row.columns = row.columns.first(row.columns.size() - 1);  // they begin behind the last cell
+      row.columns = row.columns.first(row.columns.size() - 1);  // they begin after the last cell
     }
     if (row.columns.empty()) {
       continue;

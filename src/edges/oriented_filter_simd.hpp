@@ -9,7 +9,7 @@
 
 namespace thermedge::detail {
 
-inline constexpr int kFilterSlack = 16;  // elements that may be read and written behind the last
+inline constexpr int kFilterSlack = 16;  // elements that may be read and written after the last
 inline constexpr int kLargestTurn = kEdgeDirections / 8;  // 45 degrees: directions that agree
 
 // out[x] = sum over k = 1 .. radius of weights[k] (centre[x + k step] - centre[x - k step]).
@@ -38,7 +38,7 @@ using DiagonalShares = std::array<float, 4>;
 // Writes to `places`, in ascending order, those x of 0 .. count - 1 at which response[x] > low is
 // not less than the response one pixel ahead across the edge and more than that behind, between two
 // neighbours each. Rows of response are `stride` apart. Returns how many. Writes up to a vector
-// behind the last.
+// after the last.
 [[nodiscard]] int find_ridges_row(const float* response, std::ptrdiff_t stride,
                                   const std::int32_t* direction, const DiagonalShares& shares,
                                   float low, int count, std::int32_t* places);
@@ -46,7 +46,7 @@ using DiagonalShares = std::array<float, 4>;
 // out[i] = the response at places[i] less half of the least sum of both sides, over `sides` pairs
 // of them, side k of a direction at +-offsets[kEdgeDirections k + direction]. A side whose
 // direction is off by more than 45 degrees counts as 0. `places` and `out` are read and written up
-// to a vector behind the last.
+// to a vector after the last.
 void suppressed_responses_at(const float* response, const std::int32_t* direction,
                              const std::int32_t* offsets, int sides, const std::int32_t* places,
                              int count, float* out);

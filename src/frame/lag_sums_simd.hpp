@@ -20,7 +20,7 @@ inline constexpr int kLargestLagDifference = 2047;
 // in which the two pixels differ by no more than `limit` and reach(x, y / 2) (at most 32767) > lag:
 //   sums(x, i) = sum of counts(x + lag, y) - counts(x, y), numbers(x, i) = how many rows these are.
 // What the outputs hold at larger x means nothing. Both are kLags.size() rows. All are views of
-// images: what lies behind the last element, up to a vector of 64 bytes, is read and written.
+// images: what lies after the last element, up to a vector of 64 bytes, is read and written.
 void lag_sums(ImageView<const std::uint16_t> counts, ImageView<const std::uint16_t> reach,
               int limit, ImageView<std::int16_t> sums, ImageView<std::int16_t> numbers);
 

@@ -61,7 +61,7 @@ void append_from_vector(D d, const CountRows& rows, int first, int next, int y, 
   }
 }
 
-// A row of fewer pixels than a vector: the same on copies with room behind them.
+// A row of fewer pixels than a vector: the same on copies with room after them.
 template <class D>
 void append_from_short_row(D d, const CountRows& rows, int width, int y, int limit,
                            std::vector<BadPixel>& outliers) {

@@ -70,7 +70,7 @@ void StripeMask::prepare(int width, int height) {
   transposed_.resize(down_ + kFarSquares, across_);
   ends_.resize(std::max(across_, down_), 2);
   sample_.reserve(upright_steps_.size());
-  // With a vector behind the last, as kernels read it.
+  // With a vector after the last, as kernels read it.
   of_columns_.resize(static_cast<std::size_t>(across_) + Image<float>::kAlignmentBytes);
   of_rows_.resize(static_cast<std::size_t>(down_));
 }

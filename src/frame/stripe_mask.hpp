@@ -29,7 +29,7 @@ class StripeMask {
   // reach_down) of the frame less its offsets exceeds `gradients` times what pixel noise of `sigma`
   // counts makes of it. Offsets in units of sigma. With `with_long` also those
   // that show in means along the columns (for reach_right) or the rows (for reach_down) only.
-  // Reads up to a vector of 64 bytes behind the frame's rows, as Image has them.
+  // Reads up to a vector of 64 bytes after the frame's rows, as Image has them.
   void find(ImageView<const std::uint16_t> frame, std::span<const double> columns,
             std::span<const double> rows, double sigma, double gradients, bool with_long);
 
@@ -66,7 +66,7 @@ class StripeMask {
   Image<std::int32_t> upright_steps_, level_steps_, transposed_steps_;
   Image<std::int32_t> upright_sums_, level_sums_;  // of windows of them
   // Edges between columns; and between rows, of the frame and of the transposed one. With unmarked
-  // squares behind each row.
+  // squares after each row.
   Image<std::uint8_t> upright_, level_, transposed_;
   Image<std::int32_t> ends_;  // two rows for the windows: none, and their first sums
   std::vector<float> sample_;

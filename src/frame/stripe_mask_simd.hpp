@@ -1,6 +1,6 @@
 // Rows of the picture in which the edges are found that stripes must not be measured across. All
 // in whole numbers. Kernels read and write up to `count` elements rounded up to a vector of 64
-// bytes of 32-bit numbers, so up to 15 elements behind the last.
+// bytes of 32-bit numbers, so up to 15 elements after the last.
 #pragma once
 
 #include <cstddef>

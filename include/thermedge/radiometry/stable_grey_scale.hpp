@@ -29,10 +29,13 @@ template <OptionsOf<StableGreyScaleOptions> O, class V>
 void visit_options(O& o, V&& v) {
   v("gain", o.gain, Bounds{0, 1000}, "grey levels per count (0: from the noise)");
   v("dead_band_levels", o.dead_band_levels, Bounds{0, 127},
-    "levels that the median may move before the view follows");
-  v("slew_levels", o.slew_levels, Bounds{0, 255}, "levels a frame that the view may move");
-  v("cut_clipped_share", o.cut_clipped_share, Bounds{0, 1}, "clipped share that means a scene cut");
-  v("cut_frames", o.cut_frames, Bounds{1, 1000}, "clipped frames in a row that mean a scene cut");
+    "grey levels that the median may move before the view follows");
+  v("slew_levels", o.slew_levels, Bounds{0, 255},
+    "most grey levels that the view moves in one frame");
+  v("cut_clipped_share", o.cut_clipped_share, Bounds{0, 1},
+    "share of clipped pixels that means a scene cut");
+  v("cut_frames", o.cut_frames, Bounds{1, 1000},
+    "consecutive clipped frames that mean a scene cut");
 }
 
 enum class GreyScaleEvent { kNone, kStart, kSceneCut };

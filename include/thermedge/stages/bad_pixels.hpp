@@ -24,7 +24,7 @@ template <OptionsOf<BadPixelOptions> O, class V>
 void visit_options(O& o, V&& v) {
   v("replace", o.replace, Bounds{0, 1}, "replace dead pixels by their neighbours' median");
   v("threshold_sigmas", o.threshold_sigmas, Bounds{1, 1000},
-    "how far outside its neighbours' range a pixel is dead, in sigma");
+    "a pixel this far outside its neighbours' range is dead, in units of the noise");
 }
 
 struct BadPixelTuning {

@@ -49,7 +49,7 @@ struct CannyResult {
 
 // Sobel gradients (eq. 6, borders replicated), magnitude (eq. 7), direction (eq. 8) rounded to
 // 0/45/90/135 degrees, non-maximum suppression along it, hysteresis with 8-connectivity. A pixel
-// survives suppression when its magnitude is > the neighbour before it and >= the one behind it, in
+// survives suppression when its magnitude is > the neighbour before it and >= the one after it, in
 // reading order, so that a plateau two pixels wide leaves one. Edges are above the thresholds, not
 // at them, so a constant frame has none. Border pixels are never edges. The result is bit-identical
 // for every ParallelRunner and SIMD target. One object per thread; allocates on the first frame of

@@ -20,7 +20,7 @@ struct Contour {
 };
 
 // Curves in the order in which they were found. Flat arrays: no allocation per curve.
-// The stages behind take the capacity of these arrays, which ContourTracer sets to the most that a
+// The later stages take the capacity of these arrays, which ContourTracer sets to the most that a
 // frame of this size can hold, as the bound for their own memory.
 struct ContourSet {
   std::vector<Pixel> points;

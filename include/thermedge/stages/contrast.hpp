@@ -24,7 +24,7 @@ struct ContrastTuning {
 // Normal: across the curve after smoothing (binomial weights, sigma 2 points; closed curves wrap,
 // open ones are reflected at their ends); on all of an edge towards the side that is warmer on
 // average. An edge without a direction (one point) gets (1, 0) or (-1, 0).
-// Magnitude: |counts 1 px ahead - counts 1 px behind| / 2 along the normal, bilinear.
+// Magnitude: |counts 1 px ahead - counts 1 px back| / 2 along the normal, bilinear.
 // Contrast: mean difference of the counts 1.5, 2.5 and 3.5 px to both sides along the normal;
 // samples outside the frame are left out. z = contrast / (sigma sqrt(2 / samples)); bilinear
 // samples are a little less noisy than pixels, so z errs on the safe side by about 10 %. A frame

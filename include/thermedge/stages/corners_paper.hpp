@@ -35,7 +35,7 @@ void visit_options(O& o, V&& v) {
   v("max_angle_deg", o.max_angle_deg, Bounds{90, 180}, "wider angles are no corners, degrees");
   v("end_points", o.end_points, Bounds{0, 1}, "ends of open curves are corners");
   v("end_distance_px", o.end_distance_px, Bounds{0, 1000},
-    "... where farther than this from every other corner, px");
+    "an end is a corner only farther than this from every other corner, px");
 }
 
 // The corner finder that the paper used, to the letter: smoothing over 12 samples to each side

@@ -69,7 +69,7 @@ void visit_options(O& o, V&& v) {
     "blocks displaced by one pixel may join a group: more detail, and more ripple");
 }
 
-// A bilateral filter behind the method, far weaker than the noise: it evens out the ripple that
+// A bilateral filter after the method, far weaker than the noise: it evens out the ripple that
 // block matching leaves in flat areas, and nothing else. Rows first, then columns (Pham & van Vliet
 // 2005).
 struct BilateralOptions {
@@ -80,14 +80,14 @@ struct BilateralOptions {
 template <OptionsOf<BilateralOptions> O, class V>
 void visit_options(O& o, V&& v) {
   v("range_sigmas", o.range_sigmas, Bounds{0, 10},
-    "bilateral filter behind the method: range, in units of the noise (0: off)");
-  v("space_px", o.space_px, Bounds{1, 10}, "... and its reach, sigma, px");
+    "range of the bilateral filter that follows the method, in units of the noise (0: off)");
+  v("space_px", o.space_px, Bounds{1, 10}, "reach of the bilateral filter: standard deviation, px");
 }
 
 struct DenoiseOptions {
   DenoiseMethod method = DenoiseMethod::kBm3d;
   double sigma_counts = 0;  // noise told to nlm and bm3d, in counts; 0: as measured on the frame
-  double sigma_scale = 1;   // nlm and bm3d are told so many times the noise
+  double sigma_scale = 1;   // factor on the noise that nlm and bm3d are told
   bool detrend = false;     // the smooth background is taken off before and put back after, so that
                             // no terraces are made of it
   GaussianOptions gaussian = {};
@@ -103,8 +103,10 @@ template <OptionsOf<DenoiseOptions> O, class V>
 void visit_options(O& o, V&& v) {
   v("method", o.method, kDenoiseMethods, "none, gaussian, nlm or bm3d");
   v("sigma_counts", o.sigma_counts, Bounds{0, 65535}, "noise, counts (0: measured on each frame)");
-  v("sigma_scale", o.sigma_scale, Bounds{0.1, 10}, "nlm and bm3d are told so many times the noise");
-  v("detrend", o.detrend, Bounds{0, 1}, "take the smooth background off while denoising");
+  v("sigma_scale", o.sigma_scale, Bounds{0.1, 10},
+    "factor on the noise that nlm and bm3d are told");
+  v("detrend", o.detrend, Bounds{0, 1},
+    "subtract the smooth background before denoising and add it afterwards");
   v.group("gaussian", o.gaussian);
   v.group("nlm", o.nlm);
   v.group("bm3d", o.bm3d);

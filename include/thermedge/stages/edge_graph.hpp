@@ -19,7 +19,7 @@ struct GraphOptions {
   int min_length_px = 8;          // shortest curve kept, points
   double max_turn_deg = 52;       // sharper turns at a junction are ends, 0..180
   double closed_gap_px = 3;       // a curve whose ends are nearer than this is closed ...
-  double closed_length_gaps = 4;  // ... where it is so many gaps long
+  double closed_length_gaps = 4;  // ... if its length is at least this many closed_gap_px
 
   // Fails with one line that names the option: out of its range, or at odds with another one.
   [[nodiscard]] Status check() const;
@@ -29,9 +29,11 @@ template <OptionsOf<GraphOptions> O, class V>
 void visit_options(O& o, V&& v) {
   v("min_length_px", o.min_length_px, Bounds{1, 1e9}, "shortest curve, points");
   v("max_turn_deg", o.max_turn_deg, Bounds{0, 180},
-    "sharper turns at a junction are ends, degrees");
-  v("closed_gap_px", o.closed_gap_px, Bounds{0, 100}, "ends nearer than this close a curve, px");
-  v("closed_length_gaps", o.closed_length_gaps, Bounds{0, 1000}, "... that is so many gaps long");
+    "largest turn of a curve that goes on through a junction, degrees");
+  v("closed_gap_px", o.closed_gap_px, Bounds{0, 100},
+    "a curve whose ends are nearer than this is closed, px");
+  v("closed_length_gaps", o.closed_length_gaps, Bounds{0, 1000},
+    "least length of a closed curve, in multiples of closed_gap_px");
 }
 
 struct GraphTuning {

@@ -29,10 +29,10 @@ struct GapClosingOptions {
 
 template <OptionsOf<GapClosingOptions> O, class V>
 void visit_options(O& o, V&& v) {
-  v("gap_px", o.gap_px, Bounds{0, 32}, "curves are carried on over gaps up to this, px (0: none)");
+  v("gap_px", o.gap_px, Bounds{0, 32}, "longest gap that a bridge crosses, px (0: no bridges)");
   v("max_turn_deg", o.max_turn_deg, Bounds{0, 90}, "sharpest turn into a bridge, degrees");
   v("min_contrast_ratio", o.min_contrast_ratio, Bounds{0, 1},
-    "contrast across a bridge, as a share of that across the end before it");
+    "least contrast of a bridge, as a share of the contrast at the end of its curve");
 }
 
 // Bridges as a whole raise F at s20 from .870 to .878 (docs/tuning.md, "bridges"). No field is

@@ -30,18 +30,21 @@ struct OrientedFilterOptions {
 
 template <OptionsOf<OrientedFilterOptions> O, class V>
 void visit_options(O& o, V&& v) {
-  v("across_px", o.across_px, Bounds{0.5, 2}, "width of the kernels across the edge, sigma, px");
+  v("across_px", o.across_px, Bounds{0.5, 2},
+    "standard deviation of the kernels across the edge, px");
   v("clean_across_px", o.clean_across_px, Bounds{0.5, 2},
-    "the same where there is next to no noise, px");
-  v("clean_along_px", o.clean_along_px, Bounds{0.5, 4}, "and along it, px");
-  v("along_px", o.along_px, Bounds{0.5, 4}, "their length along it, sigma, px");
-  v("low", o.low, Bounds{1e-6, 1000}, "hysteresis, in units of the noise: edges go on above this");
-  v("high", o.high, Bounds{1e-6, 1000}, "... and hold a pixel above this");
+    "across_px for frames with almost no noise, px");
+  v("clean_along_px", o.clean_along_px, Bounds{0.5, 4},
+    "along_px for frames with almost no noise, px");
+  v("along_px", o.along_px, Bounds{0.5, 4}, "standard deviation of the kernels along the edge, px");
+  v("low", o.low, Bounds{1e-6, 1000}, "low threshold of the hysteresis, in units of the noise");
+  v("high", o.high, Bounds{1e-6, 1000}, "high threshold of the hysteresis, in units of the noise");
   v("noise_floor", o.noise_floor, Bounds{0, 0.1},
-    "least noise assumed, as a share of the frame's range; half of it is a clean frame");
-  v("fine_px", o.fine_px, Bounds{0, 2}, "width of the fine derivative, sigma, px (0: none)");
+    "least noise assumed, as a share of the frame's range; frames with less than half of it are "
+    "clean");
+  v("fine_px", o.fine_px, Bounds{0, 2}, "standard deviation of the fine derivative, px (0: none)");
   v("fine_above", o.fine_above, Bounds{1e-6, 1000},
-    "its response, in noise, from which it decides");
+    "response of the fine derivative from which it decides, in units of the noise");
 }
 
 // Steps of 15 degrees: the orientations of edges, and their directions with the side that is

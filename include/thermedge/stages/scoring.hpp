@@ -67,7 +67,7 @@ struct EdgeScoreTerms {
 
 // Scores and ranks: fills `edges` from linked contours and their corners, best first. Ties: the
 // edge with more points, then the earlier contour. The id of an edge is its rank. Everything but
-// the measured fields (normals, magnitude, contrast, z, NFA; measure.hpp) and what is kept
+// the measured fields (normals, magnitude, contrast, z, NFA) and what is kept
 // (selection.hpp) is set.
 // The score is -ES, or, given the suppressed_response of edge pixels in units of the noise,
 // log(mean suppressed_response) + length_weight log N: larger is better then. Contrast counts more

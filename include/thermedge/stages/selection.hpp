@@ -14,10 +14,10 @@
 namespace thermedge {
 
 struct SelectionOptions {
-  int keep_edges = 100;         // ET: the best so many edges are kept; 0: all (text: no value)
+  int keep_edges = 100;         // ET: how many of the best edges are kept; 0: all (text: no value)
   int max_edgels = 0;           // most edgels in the kept edges together; 0: any number
-  double min_score = -1e9;      // edges with a lower score are too weak; not for ES, which falls
-  double max_false_alarms = 0;  // edges with a larger number of false alarms go; 0: no such test
+  double min_score = -1e9;      // edges with a lower score are too weak
+  double max_false_alarms = 0;  // edges with a larger expected number are dropped; 0: no such test
 
   // Fails with one line that names the option: out of its range, or at odds with another one.
   [[nodiscard]] Status check() const;
@@ -25,12 +25,12 @@ struct SelectionOptions {
 
 template <OptionsOf<SelectionOptions> O, class V>
 void visit_options(O& o, V&& v) {
-  v("keep_edges", o.keep_edges, Bounds{0, 1e9}, "ET: the best so many edges are kept (0: all)");
-  v("max_edgels", o.max_edgels, Bounds{0, 1e9}, "most edgels in the kept edges (0: any number)");
-  v("min_score", o.min_score, Bounds{-1e9, 1e9},
-    "oriented: edges with a lower score are dropped as weak");
+  v("keep_edges", o.keep_edges, Bounds{0, 1e9}, "ET: number of best edges that are kept (0: all)");
+  v("max_edgels", o.max_edgels, Bounds{0, 1e9},
+    "limit on the edgels of all kept edges together (0: none)");
+  v("min_score", o.min_score, Bounds{-1e9, 1e9}, "edges with a lower score are dropped as weak");
   v("max_false_alarms", o.max_false_alarms, Bounds{0, 1e9},
-    "false edges expected in a frame of noise; edges above it are dropped (0: no test)");
+    "expected number of false edges in a frame of pure noise (0: no test)");
 }
 
 struct SelectionTuning {
@@ -50,8 +50,8 @@ class EdgeSelector {
   // Errors: an option out of range.
   [[nodiscard]] Status run(EdgeSet& edges);
 
-  // Leaves the junctions at which two kept edges meet (within junction_reach_px); behind run.
-  // `width`, `height`: of the frame.
+  // Keeps only the junctions at which two kept edges meet (within junction_reach_px). Call it after
+  // run. `width`, `height`: of the frame.
   void keep_junctions(int width, int height, EdgeSet& edges);
 
   // Memory held, bytes.

@@ -14,7 +14,7 @@ struct SubpixelTuning {
   // steps between pixels. A constant, as the previous positions kept are as many.
   static constexpr std::size_t kCurvatureReach = 8;
   // position_sigma_px = sigma_times_response * noise / response, px, for kernels of
-  // measured_kernel: measured behind BM3D, half of what the noise before denoising would leave.
+  // measured_kernel: measured after BM3D: half of what the noise before denoising would leave.
   // The kernel is that of the measurement; it does not follow OrientedFilterOptions.
   double sigma_times_response = 1.25;
   KernelSize measured_kernel{1.2, 2.5};
@@ -28,15 +28,15 @@ struct SubpixelTuning {
 // derivative across the edge: to the maximum along the normal of the quadratic that fits the
 // logarithm of the 3 x 3 pixels around best (Steger 1998; across a blurred step the response of a
 // Gaussian derivative is a Gaussian, whose logarithm is a parabola, so the fit is exact). No edgel
-// leaves its pixel; where there is no maximum, it stays. Normals must be set (measure.hpp).
+// leaves its pixel; where there is no maximum, it stays. Normals must be set (contrast.hpp).
 // A kernel that is long (`kernel`) sees a curved edge from inside, by half its
 // variance over the radius; this is made up for, the curvature being that of the circle through
-// the edgel and those kCurvatureReach before and behind it. Near the ends of open edges it is left
+// the edgel and those kCurvatureReach before and after it. Near the ends of open edges it is left
 // as it is. Sets position_sigma_px to sigma_times_response * noise / response for kernels of the
 // measured size
 // (`noise` of the frame in the units of response): half of what the noise before denoising would
 // leave (the standard deviation of the response's slope over its curvature, 2.5 / response on
-// optics of 1 px), as measured behind BM3D. Smaller kernels see less of a step, by the root of
+// optics of 1 px), as measured after BM3D. Smaller kernels see less of a step, by the root of
 // their area, and are no worse off for that. At least least_sigma_px. Thread-safe. Cost: 0.05 us
 // per edgel.
 void refine_positions(ImageView<const float> response, KernelSize kernel, double noise,

@@ -19,7 +19,7 @@ TiffPageChain::TiffPageChain(Bytes file) : file_(file) {
 
 TiffPageChain::Link TiffPageChain::next() {
   const auto link =
-      steps_ == 0 ? number(kOffsetBytes[big_tiff_], kOffsetBytes[big_tiff_]) : link_behind(offset_);
+      steps_ == 0 ? number(kOffsetBytes[big_tiff_], kOffsetBytes[big_tiff_]) : link_after(offset_);
   if (!link) {
     return Link::kOutside;
   }
@@ -51,7 +51,7 @@ std::optional<std::uint64_t> TiffPageChain::number(std::uint64_t at, unsigned by
   return value;
 }
 
-std::optional<std::uint64_t> TiffPageChain::link_behind(std::uint64_t directory) const {
+std::optional<std::uint64_t> TiffPageChain::link_after(std::uint64_t directory) const {
   const auto entries = number(directory, kEntryCountBytes[big_tiff_]);
   if (!entries || *entries > file_.size() / kEntryBytes[big_tiff_]) {
     return std::nullopt;

@@ -25,7 +25,7 @@ class TiffPageChain {
 
  private:
   [[nodiscard]] std::optional<std::uint64_t> number(std::uint64_t at, unsigned bytes) const;
-  [[nodiscard]] std::optional<std::uint64_t> link_behind(std::uint64_t directory) const;
+  [[nodiscard]] std::optional<std::uint64_t> link_after(std::uint64_t directory) const;
 
   Bytes file_;
   bool big_endian_ = false;
