@@ -180,8 +180,12 @@ TEST(Legend, ShowsEveryMarkBesideItsWord) {
     EXPECT_LT(text->box.y, mark.bottom);
     before = text->box.right();
   }
-  EXPECT_TRUE(is_written("note"));
+  EXPECT_EQ(drawn_text().back().text, "note");
+  const double below = figure.height() - drawn_text().back().at.y;
   EXPECT_GT(drawn_text().back().box.y, drawn_text()[1].box.bottom()) << "the note comes after it";
+  panel.legend.clear();
+  const Figure without = make_single(panel, 1000);
+  EXPECT_EQ(without.height() - drawn_text().back().at.y, below) << "its line has room of its own";
 }
 
 TEST(ColourBar, RunsFromItsLowToItsHighEnd) {
