@@ -35,6 +35,34 @@ inline std::size_t count_lines(const std::string& text) {
   return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
 }
 
+// A test that runs the program in a directory of its own.
+class ProgramTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (std::string(THERMEDGE_PROGRAM).empty()) {
+      GTEST_SKIP() << "the program was not built (THERMEDGE_BUILD_CLI)";
+    }
+  }
+
+  [[nodiscard]] ProgramRun run(const std::string& arguments) const {
+    return run_program(arguments, directory_);
+  }
+  // What it prints, of a run without a fault.
+  [[nodiscard]] std::string output_of(const std::string& arguments) const {
+    const ProgramRun result = run(arguments);
+    EXPECT_EQ(result.exit_code, 0) << arguments << ": " << result.err;
+    EXPECT_EQ(result.err, "") << arguments;
+    return result.out;
+  }
+  [[nodiscard]] std::string path(const std::string& name) const { return temporary_ / name; }
+  [[nodiscard]] std::string text_of(const std::string& name) const {
+    return file_text(directory_ / name);
+  }
+
+  TemporaryDirectory temporary_;
+  const std::filesystem::path& directory_ = temporary_.path();
+};
+
 struct BadCase {
   std::string arguments;
   int exit_code;
