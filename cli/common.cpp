@@ -95,6 +95,7 @@ void ConfigOptions::add_to(CLI::App& app) {
   app.add_option("--config", file, "options from a TOML file");
   app.add_option("--set", settings, "one option, stage.option=value; may be repeated")
       ->expected(1)
+      ->allow_extra_args(false)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   app.add_flag("--dump-config", dump, "print all options as TOML and stop");
 }

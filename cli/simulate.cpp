@@ -174,6 +174,7 @@ void add_simulate(CLI::App& program, int& exit_code) {
   app.add_option("--set", command->settings,
                  "another key of sim:NAME?key=value, e.g. shutter_every=200; may be repeated")
       ->expected(1)
+      ->allow_extra_args(false)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   command->add_to(app);
   app.callback([command, &exit_code] { exit_code = command->run(); });

@@ -78,6 +78,20 @@ TEST_F(Options, TheMoreParticularOneWins) {
   }
 }
 
+// Inputs may stand behind it.
+TEST_F(Options, SetTakesOneWord) {
+  const std::string scene = kScene;
+  for (const std::string& arguments :
+       {scene + " --set selection.keep_edges=2 --set denoise.method=gaussian -o -",
+        "--set selection.keep_edges=2 --set denoise.method=gaussian " + scene + " -o -",
+        "-o - --set selection.keep_edges=2 " + scene + " --set denoise.method=gaussian"}) {
+    const std::string line = output_of("detect " + arguments);
+    EXPECT_EQ(nlohmann::json::parse(line, nullptr, false)["edges"].size(), 2U) << arguments;
+  }
+  ASSERT_EQ(output_of("simulate --set width=48 --set height=36 desk -o out --frames 1"), "");
+  EXPECT_TRUE(std::filesystem::exists(directory_ / "out" / "counts" / "frame_000000.png"));
+}
+
 TEST_F(Options, KeepTakesTheBestEdges) {
   const auto all = edges("--denoise gaussian --keep 0");
   ASSERT_GT(all.size(), 6U);
