@@ -11,6 +11,25 @@
 namespace thermedge::cli {
 namespace {
 
+// The first word, where it is neither a command nor an option of the program itself: the parser
+// would say no more than that a command is missing.
+std::string unknown_word(const CLI::App& program, int argc, char** argv) {
+  const std::string word = argc > 1 ? argv[1] : "";
+  const bool known =
+      word.empty() || program.get_option_no_throw(word) != nullptr ||
+      !program.get_subcommands([&](const CLI::App* command) { return command->get_name() == word; })
+           .empty();
+  return known ? "" : word;
+}
+
+std::string names_of_commands(const CLI::App& program) {
+  std::string names;
+  for (const CLI::App* command : program.get_subcommands({})) {
+    names += (names.empty() ? "" : ", ") + command->get_name();
+  }
+  return names;
+}
+
 int run(int argc, char** argv) {
   CLI::App program{"thermedge finds the smooth, connected edges in noisy thermal-infrared frames."};
   program.set_version_flag("--version",
@@ -30,6 +49,11 @@ int run(int argc, char** argv) {
   add_probe(program, exit_code);
   add_simulate(program, exit_code);
   add_evaluate(program, exit_code);
+  if (const std::string word = unknown_word(program, argc, argv); !word.empty()) {
+    std::fprintf(stderr, "thermedge: error: %s: no such command; there are %s\n", word.c_str(),
+                 names_of_commands(program).c_str());
+    return kBadUsage;
+  }
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -1,0 +1,143 @@
+// Exit codes and messages of every command: 1 for bad input, 2 for bad usage, one line that names
+// what is wrong.
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "support/program.hpp"
+
+namespace thermedge::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kCommands[] = {"detect",  "trace", "scale", "denoise",  "stages",
+                                     "compare", "bench", "probe", "simulate", "evaluate"};
+
+class Messages : public ProgramTest {
+ protected:
+  void SetUp() override {
+    ProgramTest::SetUp();
+    write_text(path("bad.png"), "\x89PNG\r\n\x1a\nrubbish");
+    write_text(path("empty.png"), "");
+    write_text(path("frame.pgm"), "P5 8 6 255\n" + std::string(48, 'x'));
+    write_text(path("frame.raw"), std::string(96, 'x'));
+    write_text(path("file"), "");
+    fs::create_directory(directory_ / "empty");
+  }
+};
+
+TEST_F(Messages, UnknownWordsAreBadUsage) {
+  std::vector<BadCase> cases = {
+      {"", 2, "subcommand"},
+      {"detekt frame.pgm", 2, "detekt: no such command; there are detect"},
+      {"--magic", 2, "--magic: no such command"}};
+  for (const std::string command : kCommands) {
+    cases.push_back({command + " frame.pgm -o x --magic", 2, "--magic"});
+    cases.push_back({command + " frame.pgm -o x --threads 1025", 2, "--threads"});
+    cases.push_back({command + " frame.pgm -o x --threads some", 2, "--threads"});
+    cases.push_back({command + " frame.pgm -o", 2, "-"});
+  }
+  expect_one_line_each(cases, directory_);
+}
+
+// The commands that read frames share these.
+TEST_F(Messages, BadFramesAreBadInput) {
+  std::vector<BadCase> cases;
+  for (const std::string command : {"detect", "trace", "scale -o x", "denoise -o x", "stages -o x",
+                                    "compare -o x", "bench", "probe"}) {
+    cases.push_back({command + " missing.png", 1, "missing.png: no such file"});
+    cases.push_back({command + " bad.png", 1, "bad.png"});
+    cases.push_back({command + " empty.png", 1, "empty.png"});
+    cases.push_back({command + " empty", 1, "empty"});
+    cases.push_back({command + " '*.tiff'", 1, "*.tiff"});
+    cases.push_back({command + " frame.raw", 1, "--raw-size"});
+    cases.push_back({command + " sim:nowhere", 1, "nowhere"});
+    cases.push_back({command + " frame.raw --raw-size 8x6 --raw-format gray4", 2, "gray4"});
+    cases.push_back({command + " frame.raw --raw-size 8", 2, "--raw-size 8"});
+    cases.push_back({command + " frame.raw --raw-size -8x6", 2, "--raw-size"});
+    cases.push_back({command + " frame.pgm --simd mmx", 2, "--simd"});
+  }
+  expect_one_line_each(cases, directory_);
+  EXPECT_FALSE(fs::exists(directory_ / "x")) << "nothing is made where there is nothing to write";
+}
+
+TEST_F(Messages, OptionsOfTheDetectorAreChecked) {
+  std::vector<BadCase> cases;
+  for (const std::string command : {"detect", "trace", "stages -o x", "compare -o x", "bench"}) {
+    const std::string call = command + " frame.pgm ";
+    cases.push_back({call + "--preset best", 2, "--preset"});
+    cases.push_back({call + "--keep -1", 2, "--keep"});
+    cases.push_back({call + "--keep 2.5", 2, "should be a whole number"});
+    cases.push_back({call + "--max-edgels many", 2, "--max-edgels"});
+    cases.push_back({call + "--max-false-alarms -1", 2, "--max-false-alarms"});
+    cases.push_back({call + "--set", 2, "--set"});
+    cases.push_back({call + "--set 'selection' should read", 2, "--set 'selection' should read"});
+    cases.push_back({call + "--set selection.keep_edges", 2, "should read stage.option=value"});
+    cases.push_back({call + "--set selection.magic=1", 2, "selection.magic"});
+    cases.push_back({call + "--config missing.toml", 1, "missing.toml"});
+  }
+  expect_one_line_each(cases, directory_);
+}
+
+TEST_F(Messages, OptionsOfEachCommandAreChecked) {
+  expect_one_line_each(
+      {{"detect frame.pgm --denoise strong", 2, "--denoise: denoise.method = 'strong'"},
+       {"detect frame.pgm --sigma 0", 2, "--sigma 0"},
+       {"detect frame.pgm --sigma -3", 2, "--sigma"},
+       {"detect frame.pgm --sigma 3counts", 2, "--sigma 3counts"},
+       {"detect frame.pgm -o - --write json", 2, "--write needs a directory"},
+       {"detect frame.pgm -o file --write json", 1, "file/json"},
+       {"detect frame.pgm -o missing/x.json", 1, "missing/x.json"},
+       {"trace frame.pgm --denoise none", 2, "--denoise"},
+       {"trace frame.pgm -o out --write colours", 2, "--write colours"},
+       {"scale frame.pgm", 2, "--output is required"},
+       {"scale frame.pgm -o x.png --gain loud", 2, "--gain"},
+       {"scale frame.pgm -o x.png --gain -1", 2, "--gain"},
+       {"scale frame.pgm -o x.png --dead-band 3", 2, "--stable"},
+       {"scale frame.pgm -o x.png --stable --slew 256", 2, "--slew"},
+       {"scale frame.pgm -o missing/x.png", 1, "missing/x.png"},
+       {"denoise frame.pgm", 2, "--output is required"},
+       {"denoise frame.pgm -o x.png --method strong", 2, "--method"},
+       {"denoise frame.pgm -o x.png --sigma none", 2, "--sigma none"},
+       {"denoise frame.pgm -o x.png --set selection.keep_edges=1", 2, "selection.keep_edges"},
+       {"stages frame.pgm -o x.png --panel-px 99", 2, "--panel-px"},
+       {"stages frame.pgm -o x --format jpg", 2, "--format"},
+       {"compare frame.pgm -o x.png --denoise strong", 2, "--denoise"},
+       {"compare frame.pgm -o x.png --log-kernel 62", 2, "--log-kernel"},
+       {"compare frame.pgm -o x.png --write log,hough", 2, "--write hough"},
+       {"bench frame.pgm --frames 0", 2, "--frames"},
+       {"bench frame.pgm --seconds forever", 2, "--seconds"},
+       {"bench frame.pgm -o x.txt", 2, "redirect it to a file"},
+       {"probe frame.pgm --preset best", 2, "--preset"},
+       {"probe frame.pgm --degc-per-count 1e4", 2, "--degc-per-count"},
+       {"probe frame.pgm --camera planck:1,2", 2, "--camera"},
+       {"probe frame.pgm --panel-px 5000", 2, "--panel-px"},
+       {"evaluate frame.pgm frame.pgm --thresholds 0", 2, "--thresholds"},
+       {"evaluate frame.pgm frame.pgm --at 256", 2, "--at"},
+       {"evaluate frame.pgm --shift 65", 2, "--shift"},
+       {"evaluate frame.pgm frame.pgm --sigma -1", 2, "--sigma"},
+       {"simulate desk -o out --seed x", 2, "seed"},
+       {"simulate desk -o out --format gif", 2, "--format"},
+       {"simulate desk -o out --set width=0", 2, "width"},
+       {"simulate desk -o out --set width", 2, "width"}},
+      directory_);
+  EXPECT_FALSE(fs::exists(directory_ / "x.png"));
+  EXPECT_FALSE(fs::exists(directory_ / "out"));
+}
+
+TEST_F(Messages, EveryCommandHasHelp) {
+  const std::string all = output_of("--help");
+  for (const std::string command : kCommands) {
+    EXPECT_NE(all.find("\n  " + command + " "), std::string::npos) << command;
+    const std::string help = output_of(command + " --help");
+    for (const std::string option : {"--threads", "--quiet", "--json-log", "--output"}) {
+      EXPECT_NE(help.find(option), std::string::npos) << command << " " << option;
+    }
+  }
+  EXPECT_EQ(output_of("--version").substr(0, 10), "thermedge ");
+}
+
+}  // namespace
+}  // namespace thermedge::test
