@@ -145,9 +145,10 @@ void print_json(BenchResult& result) {
 }
 
 void print_table(BenchResult& result) {
-  fmt::print("{}x{} pixels, {} thread{}, {}, {:.1f} MB of scratch memory, {} frames timed\n\n",
+  fmt::print("{}x{} pixels, {} thread{}, {}, {:.1f} MB of scratch memory, {} frame{} timed\n\n",
              result.width, result.height, result.threads, result.threads == 1 ? "" : "s",
-             result.simd, static_cast<double>(result.memory_bytes) / 1e6, result.frames());
+             result.simd, static_cast<double>(result.memory_bytes) / 1e6, result.frames(),
+             result.frames() == 1 ? "" : "s");
   fmt::print("{:<14}{:>12}{:>12}\n", "stage", "median ms", "p99 ms");
   for (Samples& stage : result.stages) {
     fmt::print("{:<14}{:>12.3f}{:>12.3f}\n", stage.name, stage.quantile(0.5), stage.quantile(0.99));
