@@ -75,6 +75,10 @@ void CommonOptions::add_to(CLI::App& app) {
 }
 
 Result<io::SourceOptions> CommonOptions::prepare() const {
+  if (inputs.empty()) {
+    return failure(ErrorCode::kInvalidArgument,
+                   "INPUT is required: a file, directory, glob, - or sim:NAME");
+  }
   io::SourceOptions options;
   options.raw_format = raw_format == "gray16be" ? io::RawFormat::kGray16Be
                        : raw_format == "gray8"  ? io::RawFormat::kGray8

@@ -67,6 +67,10 @@ int DenoiseCommand::run() const {
   if (!source) {
     return console.fail(source.error());
   }
+  if (common.output.empty()) {
+    return console.fail({ErrorCode::kInvalidArgument,
+                         "-o is required: a file for one frame, a directory for many"});
+  }
   PictureOutput output(common.output);
   const auto runner = make_runner(common.threads);
   FrameDenoiser denoiser(options);
@@ -88,7 +92,7 @@ void add_denoise(CLI::App& program, int& exit_code) {
   auto command = std::make_shared<DenoiseCommand>();
   command->common.add_to(app);
   command->config.add_to(app);
-  app.get_option("-o")->required();
+  app.get_option("INPUT")->required(false);  // --dump-config needs none
   app.add_option("--method", command->method, "denoiser (default bm3d)")
       ->check(CLI::IsMember(names_of(kDenoiseMethods)));
   app.add_option("--sigma", command->sigma, "noise: auto or counts")->capture_default_str();

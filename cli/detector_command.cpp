@@ -75,10 +75,6 @@ int DetectorCommand::run(const Work& work) const {
     fmt::print("{}", io::dump_config(*chosen));
     return kGood;
   }
-  if (common.inputs.empty()) {
-    return report.fail(
-        {ErrorCode::kInvalidArgument, "INPUT is required: a file, directory, glob, - or sim:NAME"});
-  }
   const auto source = common.prepare();
   if (!source) {
     return report.fail(source.error());
