@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -56,11 +57,10 @@ TEST(Layout, PanelsLieInAGridWithoutOverlaps) {
     }
     expect_text_in_place(placed, whole(sheet));
     EXPECT_DOUBLE_EQ(boxes.front().x, 16);
-    std::vector<double> tops;
+    std::set<double> tops;
     for (const Box& box : boxes) {
-      tops.push_back(box.y);
+      tops.insert(box.y);
     }
-    tops.erase(std::unique(tops.begin(), tops.end()), tops.end());
     EXPECT_EQ(tops.size(), static_cast<std::size_t>(grid.rows));
   }
 }
@@ -68,6 +68,7 @@ TEST(Layout, PanelsLieInAGridWithoutOverlaps) {
 TEST(Layout, PanelsAreLetteredInOrder) {
   std::vector<Panel> panels;
   std::vector<Box> boxes;
+  panels.reserve(28);
   for (int i = 0; i < 28; ++i) {
     panels.push_back(filled(0.5, "", boxes));
   }
