@@ -11,6 +11,7 @@
 #include "support/edge_maps.hpp"
 #include "support/program.hpp"
 #include "thermedge/io/write.hpp"
+#include "thermedge/simd.hpp"
 
 namespace thermedge::test {
 namespace {
@@ -221,6 +222,14 @@ TEST_F(BenchPages, HaveARowForEveryStage) {
     EXPECT_NE(page.find("\n" + stage.key() + " "), std::string::npos) << stage.key();
   }
   EXPECT_NE(page.find("\ntotal "), std::string::npos);
+}
+
+TEST_F(BenchPages, NameTheInstructionSetThatRan) {
+  for (const std::string& target : simd_targets()) {
+    const std::string bench = "bench 'sim:desk?width=48&height=36' --seconds 0 --simd " + target;
+    EXPECT_EQ(json_of(bench)["simd"], target);
+    EXPECT_NE(output_of(bench).find(" " + target + ","), std::string::npos) << target;
+  }
 }
 
 TEST_F(BenchPages, TakeAsManyFramesAsTheyAreTold) {

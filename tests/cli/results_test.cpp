@@ -176,14 +176,16 @@ TEST_F(Results, TheSameJsonInAFileOnStandardOutputAndInADirectory) {
 }
 
 TEST_F(Results, WithoutAnOutputALineTellsTheNumbers) {
+  options_.selection.keep_edges = 3;
   const Detection detection = found();
+  ASSERT_GT(detection.edges.edges.size(), detection.edges.kept);
   std::size_t edgels = 0;
   for (const Edge& edge : detection.kept_edges()) {
     edgels += edge.edgels.count;
   }
   char sigma[32];
   std::snprintf(sigma, sizeof(sigma), "%.2f", detection.sigma_counts);
-  const std::string line = output_of("detect frame.png --denoise gaussian");
+  const std::string line = output_of("detect frame.png --denoise gaussian --keep 3");
   EXPECT_EQ(count_lines(line), 1U);
   EXPECT_TRUE(line.starts_with("frame.png: 96x72, sigma " + std::string(sigma) + " counts, " +
                                std::to_string(detection.edges.kept) + " of " +
