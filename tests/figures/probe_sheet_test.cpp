@@ -55,19 +55,7 @@ Extent extent_of_colour_under(const Image<Rgb>& picture, const std::string& titl
   EXPECT_NE(heading, texts.end()) << title;
   const int left = static_cast<int>(heading->box.x) - 60;
   const int top = static_cast<int>(heading->box.bottom());
-  Extent extent;
-  for (int y = top; y < top + 660; ++y) {
-    for (int x = std::max(left, 0); x < left + 840; ++x) {
-      if (picture.view().contains(x, y) && picture(x, y) == colour) {
-        extent.left = std::min(extent.left, x);
-        extent.right = std::max(extent.right, x);
-        extent.top = std::min(extent.top, y);
-        extent.bottom = std::max(extent.bottom, y);
-        ++extent.pixels;
-      }
-    }
-  }
-  return extent;
+  return extent_of(picture, colour, {left, top, left + 840, top + 660});
 }
 
 TEST(ProbeSheet, TellsTheNumbersOfTheReport) {

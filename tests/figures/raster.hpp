@@ -40,10 +40,16 @@ struct Extent {
   [[nodiscard]] int height() const { return bottom - top + 1; }
 };
 
-inline Extent extent_of(const Image<Rgb>& picture, const std::function<bool(Rgb)>& wanted) {
+// Columns from left up to right, rows from top up to bottom; by default all of a picture.
+struct Area {
+  int left = 0, top = 0, right = 1 << 30, bottom = 1 << 30;
+};
+
+inline Extent extent_of(const Image<Rgb>& picture, const std::function<bool(Rgb)>& wanted,
+                        const Area& area = {}) {
   Extent extent;
-  for (int y = 0; y < picture.height(); ++y) {
-    for (int x = 0; x < picture.width(); ++x) {
+  for (int y = std::max(area.top, 0); y < std::min(area.bottom, picture.height()); ++y) {
+    for (int x = std::max(area.left, 0); x < std::min(area.right, picture.width()); ++x) {
       if (wanted(picture(x, y))) {
         extent.left = std::min(extent.left, x);
         extent.right = std::max(extent.right, x);
@@ -56,8 +62,9 @@ inline Extent extent_of(const Image<Rgb>& picture, const std::function<bool(Rgb)
   return extent;
 }
 
-inline Extent extent_of(const Image<Rgb>& picture, Rgb colour) {
-  return extent_of(picture, [&](Rgb pixel) { return pixel == colour; });
+inline Extent extent_of(const Image<Rgb>& picture, Rgb colour, const Area& area = {}) {
+  return extent_of(
+      picture, [&](Rgb pixel) { return pixel == colour; }, area);
 }
 
 // Everything that is not paper.
