@@ -78,6 +78,12 @@ TEST(DrawView, SpreadsThePercentilesOfTheSortedCounts) {
   }
 }
 
+TEST(DrawView, OfNoPixelsDrawsNone) {
+  StridedImage<std::uint8_t> view(3, 0);
+  draw_view({nullptr, 3, 0}, view.view());
+  EXPECT_TRUE(view.intact());
+}
+
 Detection detection_of(int width, int height) {
   Detection detection;
   detection.width = width;
