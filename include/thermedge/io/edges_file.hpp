@@ -16,7 +16,8 @@ namespace thermedge::io {
 [[nodiscard]] std::string edges_to_json(const Detection& detection, const std::string& source);
 
 // The kept edges as vectors in pixel coordinates, one path per edge with its index, rank and score;
-// junctions as circles, corners as squares.
+// junctions as circles, corners as squares. What of `source` cannot stand in XML (bytes that are
+// not UTF-8, control characters) becomes question marks.
 [[nodiscard]] std::string edges_to_svg(const Detection& detection, const std::string& source);
 
 }  // namespace thermedge::io

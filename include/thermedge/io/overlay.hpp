@@ -10,7 +10,8 @@
 namespace thermedge::io {
 
 // Grey view for the eye: counts between the 0.5th and the 99.5th percentile spread over 0..255 (a
-// frame whose range is under 16 counts is spread over 16, so that noise is not blown up).
+// frame whose range is under 16 counts is spread over 16, so that noise is not blown up). Both of
+// one size, which may be without pixels.
 void draw_view(ImageView<const std::uint16_t> counts, ImageView<std::uint8_t> view);
 
 // Colour of a rank: `share` 0 (best) .. 1 (last) runs from the yellow end of `plasma` over

@@ -1,11 +1,41 @@
+#include <algorithm>
 #include <charconv>
+#include <cstddef>
+#include <iterator>
 #include <string>
+#include <string_view>
+#include <utility>
 
 #include "thermedge/io/edges_file.hpp"
 #include "thermedge/io/overlay.hpp"
 
 namespace thermedge::io {
 namespace {
+
+// Length of the UTF-8 character that `text` begins with; 0 where there is none, or one that XML 1.0
+// forbids (its production 2).
+std::size_t character_length(std::string_view text) {
+  constexpr unsigned kLeastOfLength[] = {0, 0, 0x80, 0x800, 0x10000};
+  const auto byte_at = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  const unsigned lead = byte_at(0);
+  if (lead < 0x80) {
+    return lead >= ' ' || lead == '\t' || lead == '\n' || lead == '\r' ? 1 : 0;
+  }
+  const std::size_t length = lead >= 0xF0 ? 4 : lead >= 0xE0 ? 3 : 2;
+  if (lead < 0xC0 || lead >= 0xF8 || text.size() < length) {
+    return 0;
+  }
+  unsigned code = lead & (0x7FU >> length);
+  for (std::size_t i = 1; i < length; ++i) {
+    if ((byte_at(i) & 0xC0U) != 0x80) {
+      return 0;
+    }
+    code = code << 6 | (byte_at(i) & 0x3FU);
+  }
+  const bool allowed =
+      code < 0xD800 || (code > 0xDFFF && code < 0xFFFE) || (code > 0xFFFF && code <= 0x10FFFF);
+  return allowed && code >= kLeastOfLength[length] ? length : 0;
+}
 
 // Builds SVG text; numbers do not depend on the locale.
 class SvgText {
@@ -23,9 +53,13 @@ class SvgText {
   SvgText& operator<<(Rgb colour) {
     return *this << "rgb(" << colour.r << "," << colour.g << "," << colour.b << ")";
   }
+  // What cannot stand in XML, as in file names that are not UTF-8, becomes question marks.
   SvgText& escaped(std::string_view text) {
-    for (const char c : text) {
-      switch (c) {
+    while (!text.empty()) {
+      const std::size_t length = character_length(text);
+      const std::string_view character = text.substr(0, std::max<std::size_t>(length, 1));
+      text.remove_prefix(character.size());
+      switch (character[0]) {
         case '&':
           text_ += "&amp;";
           break;
@@ -36,7 +70,7 @@ class SvgText {
           text_ += "&gt;";
           break;
         default:
-          text_ += c;
+          text_ += length > 0 ? character : "?";
       }
     }
     return *this;

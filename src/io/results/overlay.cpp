@@ -133,6 +133,9 @@ void draw_corners(const EdgeSet& set, const Edge& edge, Canvas& canvas) {
 }  // namespace
 
 void draw_view(ImageView<const std::uint16_t> counts, ImageView<std::uint8_t> view) {
+  if (counts.empty()) {
+    return;
+  }
   const Stretch stretch = percentile_stretch(counts);
   const double gain = 255.0 / (stretch.high - stretch.low);
   for (int y = 0; y < counts.height(); ++y) {
