@@ -43,13 +43,10 @@ std::string summary(const Detection& detection, const std::string& source) {
   for (const Edge& edge : detection.edges.kept_edges()) {
     edgels += edge.edgels.count;
   }
-  const std::string note = detection.no_false_alarm_model.empty()
-                               ? ""
-                               : fmt::format("; false alarms {}", detection.no_false_alarm_model);
-  return fmt::format("{}: {}x{}, sigma {:.2f} counts, {} of {} edges kept, {} edgels, {:.1f} ms{}",
+  return fmt::format("{}: {}x{}, sigma {:.2f} counts, {} of {} edges kept, {} edgels, {:.1f} ms",
                      source, detection.width, detection.height, detection.sigma_counts,
                      detection.edges.kept, detection.edges.edges.size(), edgels,
-                     total_ms(detection.times), note);
+                     total_ms(detection.times));
 }
 
 }  // namespace

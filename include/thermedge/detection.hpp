@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <span>
-#include <string_view>
 
 #include "thermedge/edge_set.hpp"
 #include "thermedge/image.hpp"
@@ -30,14 +29,8 @@ struct Detection {
   double sigma_counts = 0;  // the noise that the denoiser was told; 0: none, so it copied the frame
   double threshold_low = 0,
          threshold_high = 0;  // hysteresis: Sobel magnitude in grey levels, or units of the noise
-  // The unit of the oriented filter's thresholds and where it comes from; 0 for preset paper.
-  double range_counts = 0;  // of the frame, its 0.1st to 99.9th percentile
-  double unit_counts = 0;   // noise, at least a share of the range
+  double unit_counts = 0;     // of the oriented filter's thresholds; 0 for preset paper
   KernelSize kernel_px{0, 0};
-  // Empty where log10_nfa means what it says. Else why it is NaN and no edge was dropped by it,
-  // e.g. "not measured for denoise.method = \"nlm\"".
-  std::string_view no_false_alarm_model;
-
   EdgeSet edges;
   StageTimes times;
 

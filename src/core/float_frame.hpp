@@ -2,6 +2,7 @@
 #pragma once
 
 #include "thermedge/image.hpp"
+#include "thermedge/noise_model.hpp"
 #include "thermedge/result.hpp"
 
 namespace thermedge::detail {
@@ -19,6 +20,7 @@ namespace thermedge::detail {
 struct NoiseUnits {
   double offset = 0;
   double sigma = 1;
+  NoiseSpectrum spectrum = white_spectrum();
 
   [[nodiscard]] float from_counts(float counts) const {
     return static_cast<float>((counts - offset) / sigma);

@@ -1,7 +1,9 @@
 #include "bm3d.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numeric>
 #include <span>
 
 #include "bm3d_sums_simd.hpp"
@@ -30,6 +32,46 @@ void for_each_row(int rows, ParallelRunner& runner, const Process& process) {
 int continued(int side, int unit) {
   return kBlockPx + (std::max(side - kBlockPx, 0) + unit - 1) / unit * unit;
 }
+
+// How the wavelets of stage 1 see the frequencies of the cosine transform, along one axis.
+class WaveletSpectra {
+ public:
+  WaveletSpectra() {
+    for (int u = 0; u < kBlockPx; ++u) {
+      // A cosine across, the same in all rows.
+      BlockCoefficients block{};
+      block[kBlockPx * u] = 1;
+      transform_block(BlockTransform::kDct, true, block);
+      transform_block(BlockTransform::kBior15, false, block);
+      for (int i = 0; i < kBlockPx; ++i) {
+        gains_[index(i, u)] = static_cast<double>(block[kBlockPx * i]) * block[kBlockPx * i];
+      }
+    }
+    for (int i = 0; i < kBlockPx; ++i) {
+      const auto begin = gains_.begin() + kBlockPx * i;
+      const double sum = std::accumulate(begin, begin + kBlockPx, 0.0);
+      std::transform(begin, begin + kBlockPx, begin, [=](double gain) { return gain / sum; });
+    }
+  }
+
+  // Of the noise in the wavelet i across, j down, in units of what white noise of 1 has there.
+  [[nodiscard]] double variance(int i, int j, const NoiseSpectrum& spectrum) const {
+    double sum = 0;
+    for (int v = 0; v < kBlockPx; ++v) {
+      for (int u = 0; u < kBlockPx; ++u) {
+        sum += gains_[index(i, u)] * gains_[index(j, v)] *
+               spectrum[static_cast<std::size_t>(kBlockPx * v + u)];
+      }
+    }
+    return sum;
+  }
+
+ private:
+  static std::size_t index(int wavelet, int frequency) {
+    return static_cast<std::size_t>(kBlockPx * wavelet + frequency);
+  }
+  std::array<double, kBlockPx * kBlockPx> gains_{};  // sum over the frequencies: 1
+};
 
 }  // namespace
 
@@ -103,6 +145,36 @@ void Bm3d::prepare(int width, int height) {
   }
 }
 
+// Coefficients come transposed: index kBlockPx * u + v. Blocks of a group were chosen because they
+// look alike. The fewer independent values a block's noise has, the more alike is the noise itself,
+// and the more of it is left in what they have in common: thresholds rise with the root of 64 over
+// that number. For white noise all is as if there were no spectrum.
+void Bm3d::find_noise_of_coefficients(const NoiseSpectrum& spectrum) {
+  static const WaveletSpectra of_wavelets;
+  double sum = 0;
+  double squares = 0;
+  for (const double variance : spectrum) {
+    sum += variance;
+    squares += variance * variance;
+  }
+  const double independent = sum * sum / squares;
+  const double likeness = std::sqrt(kBlockPx * kBlockPx / independent);
+  for (int u = 0; u < kBlockPx; ++u) {
+    for (int v = 0; v < kBlockPx; ++v) {
+      const int at = kBlockPx * u + v;
+      const double deviation = likeness * std::sqrt(of_wavelets.variance(u, v, spectrum));
+      thresholds_.all[at] = static_cast<float>(settings_.options.lambda * deviation);
+      thresholds_.of_mean[at] = thresholds_.all[at];
+      variances_[at] = static_cast<float>(likeness * likeness *
+                                          spectrum[static_cast<std::size_t>(kBlockPx * v + u)]);
+    }
+  }
+  thresholds_.of_mean[0] = 0;
+  if (settings_.options.keep_slopes) {  // the coarsest ones, across and down
+    thresholds_.of_mean[1] = thresholds_.of_mean[kBlockPx] = 0;
+  }
+}
+
 void Bm3d::load(ImageView<const float> in, const NoiseUnits& units, ParallelRunner& runner) {
   for_each_row(height_, runner, [&](int y) {
     mirrored_row(in, units, y - top_, left_, width_, noisy_.row(y));
@@ -145,10 +217,9 @@ void Bm3d::filter_row(Stage stage, int y, BandScratch& scratch, const Accumulato
     match_row(guide_, pattern_, row, settings.largest_group, scratch.match, scratch.groups);
     for (const BlockGroup& group : std::span(scratch.groups).first(row.columns.size())) {
       if (is_hard) {
-        filter_hard(noisy_.view(), group.view(), static_cast<float>(settings_.options.lambda),
-                    window_, sums);
+        filter_hard(noisy_.view(), group.view(), thresholds_, window_, sums);
       } else {
-        filter_wiener(noisy_.view(), estimate_.view(), group.view(), window_, sums);
+        filter_wiener(noisy_.view(), estimate_.view(), group.view(), variances_, window_, sums);
       }
     }
   }
@@ -198,6 +269,7 @@ void Bm3d::run_stage(Stage stage, ParallelRunner& runner) {
 void Bm3d::run(ImageView<const float> in, const NoiseUnits& units, ImageView<float> out,
                ParallelRunner& runner) {
   prepare(in.width(), in.height());
+  find_noise_of_coefficients(units.spectrum);
   load(in, units, runner);
   run_stage(Stage::kHard, runner);
   if (settings_.options.wiener) {

@@ -72,6 +72,7 @@ class Bm3d {
   [[nodiscard]] Band band(int index) const;
   [[nodiscard]] std::span<const int> columns_of(const StageSettings& stage, int y) const;
   void make_columns();
+  void find_noise_of_coefficients(const NoiseSpectrum& spectrum);
   void load(ImageView<const float> in, const NoiseUnits& units, ParallelRunner& runner);
   void run_stage(Stage stage, ParallelRunner& runner);
   void filter_band(Stage stage, int index);
@@ -83,6 +84,10 @@ class Bm3d {
   SearchPattern pattern_;
   float profile_[kBlockPx];  // Kaiser window
   BlockWindow window_;       // its product with itself
+
+  // Of this frame's noise: thresholds of the first stage, variances for the second one.
+  HardThresholds thresholds_;
+  BlockCoefficients variances_;
 
   int width_ = 0;  // of the continued frame
   int height_ = 0;

@@ -109,12 +109,13 @@ void aggregate(Spectra& spectra, std::span<const BlockPosition> group, float wei
 
 // Returns the number of coefficients kept.
 template <int kSize>
-int shrink_hard(Spectra& spectra, float lambda) {
+int shrink_hard(Spectra& spectra, const HardThresholds& thresholds) {
   const F32 d;
-  const Floats threshold = hn::Set(d, lambda * std::sqrt(static_cast<float>(kSize)));
+  const Floats scale = hn::Set(d, std::sqrt(static_cast<float>(kSize)));
   std::size_t kept = 0;
   for (int c = 0; c < kCoefficients; c += static_cast<int>(hn::Lanes(d))) {
     Floats v[kSize];
+    const Floats threshold = hn::LoadU(d, thresholds.all + c) * scale;
     load_all<kSize>(spectra.values + c, v);
     const Floats mean = v[0];
     HWY_UNROLL(32)
@@ -123,11 +124,9 @@ int shrink_hard(Spectra& spectra, float lambda) {
       kept += hn::CountTrue(d, large);
       v[i] = hn::IfThenElseZero(large, v[i]);
     }
-    if (c == 0) {
-      const auto is_mean = hn::FirstN(d, 1);
-      kept += hn::AllFalse(d, hn::And(is_mean, hn::Abs(mean) > threshold));
-      v[0] = hn::IfThenElse(is_mean, mean, v[0]);
-    }
+    const auto always = hn::LoadU(d, thresholds.of_mean + c) == hn::Zero(d);
+    kept += hn::CountTrue(d, hn::AndNot(hn::Abs(mean) > threshold, always));
+    v[0] = hn::IfThenElse(always, mean, v[0]);
     store_all<kSize>(v, spectra.values + c);
   }
   return static_cast<int>(kept);
@@ -145,11 +144,12 @@ inline float tree_sum(float* values) {
 
 // Returns the sum of the squared factors.
 template <int kSize>
-float shrink_wiener(Spectra& noisy, const Spectra& basic) {
+float shrink_wiener(Spectra& noisy, const Spectra& basic, const BlockCoefficients& variances) {
   const F32 d;
-  const Floats noise = hn::Set(d, static_cast<float>(kSize));
+  const Floats blocks = hn::Set(d, static_cast<float>(kSize));
   HWY_ALIGN float energy[kCoefficients];
   for (int c = 0; c < kCoefficients; c += static_cast<int>(hn::Lanes(d))) {
+    const Floats noise = hn::LoadU(d, variances + c) * blocks;
     Floats factor[kSize];
     load_all<kSize>(basic.values + c, factor);
     HWY_UNROLL(32)
@@ -174,37 +174,38 @@ float shrink_wiener(Spectra& noisy, const Spectra& basic) {
   return tree_sum(energy);
 }
 
-void filter_hard(ImageView<const float> noisy, std::span<const BlockPosition> group, float lambda,
-                 const BlockWindow& window, const Accumulator& accumulator) {
+void filter_hard(ImageView<const float> noisy, std::span<const BlockPosition> group,
+                 const HardThresholds& thresholds, const BlockWindow& window,
+                 const Accumulator& accumulator) {
   Spectra spectra;
   transform_group<Bior15>(noisy, group, spectra);
   int kept = 1;
   switch (group.size()) {
     case 1:
-      kept = shrink_hard<1>(spectra, lambda);
+      kept = shrink_hard<1>(spectra, thresholds);
       break;
     case 2:
-      kept = shrink_hard<2>(spectra, lambda);
+      kept = shrink_hard<2>(spectra, thresholds);
       break;
     case 4:
-      kept = shrink_hard<4>(spectra, lambda);
+      kept = shrink_hard<4>(spectra, thresholds);
       break;
     case 8:
-      kept = shrink_hard<8>(spectra, lambda);
+      kept = shrink_hard<8>(spectra, thresholds);
       break;
     case 16:
-      kept = shrink_hard<16>(spectra, lambda);
+      kept = shrink_hard<16>(spectra, thresholds);
       break;
     default:
-      kept = shrink_hard<32>(spectra, lambda);
+      kept = shrink_hard<32>(spectra, thresholds);
       break;
   }
   aggregate<Bior15>(spectra, group, 1.0F / static_cast<float>(kept), window, accumulator);
 }
 
 void filter_wiener(ImageView<const float> noisy, ImageView<const float> basic,
-                   std::span<const BlockPosition> group, const BlockWindow& window,
-                   const Accumulator& accumulator) {
+                   std::span<const BlockPosition> group, const BlockCoefficients& variances,
+                   const BlockWindow& window, const Accumulator& accumulator) {
   Spectra spectra;
   Spectra guide;
   transform_group<Dct>(noisy, group, spectra);
@@ -212,22 +213,22 @@ void filter_wiener(ImageView<const float> noisy, ImageView<const float> basic,
   float energy = 1;
   switch (group.size()) {
     case 1:
-      energy = shrink_wiener<1>(spectra, guide);
+      energy = shrink_wiener<1>(spectra, guide, variances);
       break;
     case 2:
-      energy = shrink_wiener<2>(spectra, guide);
+      energy = shrink_wiener<2>(spectra, guide, variances);
       break;
     case 4:
-      energy = shrink_wiener<4>(spectra, guide);
+      energy = shrink_wiener<4>(spectra, guide, variances);
       break;
     case 8:
-      energy = shrink_wiener<8>(spectra, guide);
+      energy = shrink_wiener<8>(spectra, guide, variances);
       break;
     case 16:
-      energy = shrink_wiener<16>(spectra, guide);
+      energy = shrink_wiener<16>(spectra, guide, variances);
       break;
     default:
-      energy = shrink_wiener<32>(spectra, guide);
+      energy = shrink_wiener<32>(spectra, guide, variances);
       break;
   }
   aggregate<Dct>(spectra, group, 1.0F / energy, window, accumulator);
@@ -257,15 +258,16 @@ HWY_EXPORT(filter_hard);
 HWY_EXPORT(filter_wiener);
 HWY_EXPORT(transform_block);
 
-void filter_hard(ImageView<const float> noisy, std::span<const BlockPosition> group, float lambda,
-                 const BlockWindow& window, const Accumulator& accumulator) {
-  THERMEDGE_SIMD_DISPATCH(filter_hard)(noisy, group, lambda, window, accumulator);
+void filter_hard(ImageView<const float> noisy, std::span<const BlockPosition> group,
+                 const HardThresholds& thresholds, const BlockWindow& window,
+                 const Accumulator& accumulator) {
+  THERMEDGE_SIMD_DISPATCH(filter_hard)(noisy, group, thresholds, window, accumulator);
 }
 
 void filter_wiener(ImageView<const float> noisy, ImageView<const float> basic,
-                   std::span<const BlockPosition> group, const BlockWindow& window,
-                   const Accumulator& accumulator) {
-  THERMEDGE_SIMD_DISPATCH(filter_wiener)(noisy, basic, group, window, accumulator);
+                   std::span<const BlockPosition> group, const BlockCoefficients& variances,
+                   const BlockWindow& window, const Accumulator& accumulator) {
+  THERMEDGE_SIMD_DISPATCH(filter_wiener)(noisy, basic, group, variances, window, accumulator);
 }
 
 void transform_block(BlockTransform transform, bool inverse, float* block) {

@@ -21,19 +21,29 @@ struct Accumulator {
 // Weights of a block's pixels in the aggregation, row by row.
 using BlockWindow = float[kBlockPx * kBlockPx];
 
-// Stage 1 in units of the noise: 2-D bior1.5 wavelet of each block, Walsh-Hadamard transform along
-// the group, coefficients not above `lambda` set to 0, and back. The mean of the group is always
-// kept, so an offset of the frame passes unchanged. Weight: 1 / number of coefficients kept.
-// The size of the group is a power of two up to kLargestGroup.
-void filter_hard(ImageView<const float> noisy, std::span<const BlockPosition> group, float lambda,
-                 const BlockWindow& window, const Accumulator& accumulator);
+// A number for each coefficient of a block, in the order in which transform_block leaves them.
+using BlockCoefficients = float[kBlockPx * kBlockPx];
 
-// Stage 2: 2-D DCT, Walsh-Hadamard transform, coefficients times e^2 / (e^2 + 1) where e is the
-// coefficient of the estimate `basic` (the group's mean times 1), and back. Weight: 1 / sum of the
-// squared factors.
+// `of_mean` is 0 for the coefficients of a group's mean that are always kept; its mean is one.
+struct HardThresholds {
+  BlockCoefficients all;
+  BlockCoefficients of_mean;
+};
+
+// Stage 1 in units of the noise: 2-D bior1.5 wavelet of each block, Walsh-Hadamard transform along
+// the group, coefficients not above their threshold set to 0, and back. The mean of the group is
+// always kept, so an offset of the frame passes unchanged. Weight: 1 / number of coefficients kept.
+// The size of the group is a power of two up to kLargestGroup.
+void filter_hard(ImageView<const float> noisy, std::span<const BlockPosition> group,
+                 const HardThresholds& thresholds, const BlockWindow& window,
+                 const Accumulator& accumulator);
+
+// Stage 2: 2-D DCT, Walsh-Hadamard transform, coefficients times e^2 / (e^2 + v) where e is the
+// coefficient of the estimate `basic` and v the noise's variance (the group's mean times 1), and
+// back. Weight: 1 / sum of the squared factors.
 void filter_wiener(ImageView<const float> noisy, ImageView<const float> basic,
-                   std::span<const BlockPosition> group, const BlockWindow& window,
-                   const Accumulator& accumulator);
+                   std::span<const BlockPosition> group, const BlockCoefficients& variances,
+                   const BlockWindow& window, const Accumulator& accumulator);
 
 enum class BlockTransform { kBior15, kDct };
 

@@ -89,48 +89,72 @@ struct Denoiser::Impl {
         bm3d(detail::bm3d_settings(chosen.bm3d, tuning.bm3d)),
         bilateral(chosen.bilateral, tuning.bilateral) {}
 
-  // `burden`: see run_measured.
-  Status run(ImageView<const float> in, double sigma, double burden, ImageView<float> out,
+  // What is told about the noise: `sigma` in the units of the frame, `burden` as in run_measured.
+  struct Told {
+    double sigma = 0;
+    NoiseSpectrum spectrum = white_spectrum();
+    double burden = 1;
+  };
+
+  Status run(ImageView<const float> in, const Told& noise, ImageView<float> out,
              ParallelRunner& runner) {
     if (!options.detrend) {
-      return run_filters(in, sigma, burden, out, runner);
+      return run_filters(in, noise, out, runner);
     }
     detrend.measure(in);
     detrend.subtract(in, out);
-    return run_filters(out, sigma, burden, out, runner).map([&] { detrend.add(out); });
+    return run_filters(out, noise, out, runner).map([&] { detrend.add(out); });
   }
 
-  Status run_filters(ImageView<const float> in, double sigma, double burden, ImageView<float> out,
+  // Filters a copy in which the noise is even: distances from the mean of the frame over the map.
+  Status run_evened(ImageView<const float> in, const Told& noise, const NoiseLevelMap& map,
+                    ImageView<float> out, ParallelRunner& runner) {
+    const auto mean = static_cast<float>(detail::frame_range(in).mean);
+    float* level = levels.row(0);
+    for (int y = 0; y < in.height(); ++y) {
+      map.row(y, level);
+      std::transform(in.row(y), in.row(y) + in.width(), level, out.row(y),
+                     [=](float value, float at) { return (value - mean) / at; });
+    }
+    return run(out, noise, out, runner).map([&] {
+      for (int y = 0; y < out.height(); ++y) {
+        map.row(y, level);
+        std::transform(out.row(y), out.row(y) + out.width(), level, out.row(y),
+                       [=](float value, float at) { return value * at + mean; });
+      }
+    });
+  }
+
+  Status run_filters(ImageView<const float> in, const Told& noise, ImageView<float> out,
                      ParallelRunner& runner) {
-    return run_method(in, sigma * options.sigma_scale, burden, out, runner)
-        .and_then([&]() -> Status {
-          const double range = burden * options.bilateral.range_sigmas;
-          if (range > 0) {
-            if (Status status = check_sigma(sigma); !status) {
-              return status;
-            }
-            bilateral.run(out, range * sigma, out, runner);
-          }
-          return {};
-        });
+    return run_method(in, noise, out, runner).and_then([&]() -> Status {
+      const double range = noise.burden * options.bilateral.range_sigmas;
+      if (range > 0) {
+        if (Status status = check_sigma(noise.sigma); !status) {
+          return status;
+        }
+        bilateral.run(out, range * noise.sigma, out, runner);
+      }
+      return {};
+    });
   }
 
-  Status run_method(ImageView<const float> in, double sigma, double burden, ImageView<float> out,
+  Status run_method(ImageView<const float> in, const Told& noise, ImageView<float> out,
                     ParallelRunner& runner) {
     switch (options.method) {
       case DenoiseMethod::kNone:
         copy_pixels(in, out);
         return {};
       case DenoiseMethod::kGaussian:
-        gaussian.run(in, burden, out, runner);
+        gaussian.run(in, noise.burden, out, runner);
         return {};
       case DenoiseMethod::kNlm:
-        return run_in_noise_units(nlm, in, sigma, out, runner);
+        return run_in_noise_units(nlm, in, noise, out, runner);
       case DenoiseMethod::kBm3d:
         if (Status status = check_side(in); !status) {
           return status;
         }
-        return run_in_noise_units(bm3d, in, sigma, out, runner);
+        return run_in_noise_units(bm3d, in, noise, out, runner);
     }
     return failure(ErrorCode::kInvalidArgument,
                    "denoise.method: must be none, gaussian, nlm or bm3d");
@@ -170,8 +194,9 @@ struct Denoiser::Impl {
   }
 
   template <class Filter>
-  static Status run_in_noise_units(Filter& filter, ImageView<const float> in, double sigma,
-                                   ImageView<float> out, ParallelRunner& runner) {
+  Status run_in_noise_units(Filter& filter, ImageView<const float> in, const Told& noise,
+                            ImageView<float> out, ParallelRunner& runner) {
+    const double sigma = noise.sigma * options.sigma_scale;
     if (Status status = check_sigma(sigma); !status) {
       return status;
     }
@@ -182,7 +207,7 @@ struct Denoiser::Impl {
       filter.prepare(in.width(), in.height());  // so that a flat first frame counts as one
       copy_pixels(in, out);
     } else {
-      filter.run(in, {range.mean, sigma}, out, runner);
+      filter.run(in, {range.mean, sigma, noise.spectrum}, out, runner);
     }
     return {};
   }
@@ -194,6 +219,7 @@ struct Denoiser::Impl {
   detail::Bm3d bm3d;
   detail::BilateralFilter bilateral;
   detail::Detrender detrend;
+  Image<float> levels;  // of the noise in one row
 };
 
 Denoiser::Denoiser(const DenoiseOptions& options, const DenoiseTuning& tuning)
@@ -204,23 +230,35 @@ Denoiser::~Denoiser() = default;
 
 std::size_t Denoiser::memory_bytes() const {
   return detail::memory_of(impl_->gaussian, impl_->nlm, impl_->bm3d, impl_->bilateral,
-                           impl_->detrend);
+                           impl_->detrend, impl_->levels);
 }
 
 Status Denoiser::run(ImageView<const float> in, double sigma, ImageView<float> out,
                      ParallelRunner& runner) {
-  return impl_->guarded(in, out, [&] { return impl_->run(in, sigma, 1, out, runner); });
+  return impl_->guarded(in, out, [&] { return impl_->run(in, {.sigma = sigma}, out, runner); });
 }
 
 Status Denoiser::run_measured(ImageView<const float> in, double sigma, ImageView<float> out,
-                              ParallelRunner& runner, double burden) {
+                              ParallelRunner& runner) {
+  NoiseModel white;
+  white.level_counts = sigma;
+  return run_measured(in, white, out, runner);
+}
+
+Status Denoiser::run_measured(ImageView<const float> in, const NoiseModel& noise,
+                              ImageView<float> out, ParallelRunner& runner, double burden) {
   const DenoiseMethod method = impl_->options.method;
   const bool needs_noise = method == DenoiseMethod::kNlm || method == DenoiseMethod::kBm3d ||
                            impl_->options.bilateral.range_sigmas > 0;
-  if (sigma == 0 && needs_noise) {
-    return impl_->guarded(in, out, [&] { return impl_->copy_clean(in, out); });
-  }
-  return impl_->guarded(in, out, [&] { return impl_->run(in, sigma, burden, out, runner); });
+  return impl_->guarded(in, out, [&] {
+    impl_->levels.resize(in.width(), 1);
+    if (noise.level_counts == 0 && needs_noise) {
+      return impl_->copy_clean(in, out);
+    }
+    const Impl::Told told{noise.level_counts, noise.spectrum, burden};
+    return noise.map.is_even() ? impl_->run(in, told, out, runner)
+                               : impl_->run_evened(in, told, noise.map, out, runner);
+  });
 }
 
 }  // namespace thermedge

@@ -55,11 +55,18 @@ void OrientedFilterBank::Impl::prepare(int frame_width, int frame_height) {
   padded.resize(width + 2 * padding() + slack, height + 2 * padding());
   gx.resize(width + 2 * line + slack, height + 2 * line);
   gy.resize(gx.width(), gx.height());
-  scratch.resize(width + 2 * padding() + slack, 2 * bands);
+  scratch.resize(width + 2 * std::max(padding(), tuning.ripple_reach_px) + slack, 2 * bands);
   projected.resize(gx.width(), bands * (kBandRows + 2 * line));
   response.resize(width + slack, height);
   direction.resize(width + slack, height);
   suppressed_response.resize(width, height);
+  const int reach = tuning.ripple_reach_px;
+  largest_in_row.resize(width + slack, height + 2 * reach);
+  largest_around.resize(width + slack, height);
+  for (int i = 0; i < reach; ++i) {
+    std::fill_n(largest_in_row.row(i), width + slack, 0.0F);
+    std::fill_n(largest_in_row.row(height + 2 * reach - 1 - i), width + slack, 0.0F);
+  }
   places.resize(width + slack, bands);
   of_places.resize(width + slack, bands);
   find_side_offsets();
@@ -152,7 +159,8 @@ std::size_t OrientedFilterBank::memory_bytes() const {
   const Impl& self = *impl_;
   return detail::memory_of(self.padded, self.gx, self.gy, self.scratch, self.fine_magnitude,
                            self.projected, self.response, self.direction, self.suppressed_response,
-                           self.places, self.of_places, self.fine_classes, self.edges, self.group);
+                           self.largest_in_row, self.largest_around, self.places, self.of_places,
+                           self.fine_classes, self.edges, self.group);
 }
 
 Result<OrientedFilterResult> OrientedFilterBank::run(ImageView<const float> in, double sigma_counts,
@@ -182,6 +190,7 @@ Result<OrientedFilterResult> OrientedFilterBank::run(ImageView<const float> in, 
   self.for_each_band(runner, [&](int band, int y_begin, int y_end) {
     self.project(band, y_begin, y_end, sigma_counts);
   });
+  self.find_largest(runner);
   self.for_each_band(
       runner, [&](int band, int y_begin, int y_end) { self.suppress(band, y_begin, y_end); });
   if (self.options.fine_px > 0) {

@@ -44,6 +44,7 @@ struct OrientedFilterBank::Impl {
   void find_fine(ParallelRunner& runner, double sigma_counts);
   void project(int band, int y_begin, int y_end, double sigma_counts);
   void find_side_offsets();
+  void find_largest(ParallelRunner& runner);
   void suppress(int band, int y_begin, int y_end);
   void merge_fine();
   [[nodiscard]] float suppressed_response_at(int x, int y) const;
@@ -72,6 +73,9 @@ struct OrientedFilterBank::Impl {
   Image<float> response;
   Image<std::int32_t> direction;
   Image<float> suppressed_response;
+  // Largest responses near by: along the rows, with ripple_reach_px rows of zeros above and below,
+  // and around each pixel.
+  Image<float> largest_in_row, largest_around;
   // Of one row, for each band: pixels on ridges, and their suppressed_responses.
   Image<std::int32_t> places;
   Image<float> of_places;

@@ -48,6 +48,17 @@ void suppress_row(const GradientRow& row, int count, float low, float high, std:
   }
 }
 
+void largest_row(const float* in, std::ptrdiff_t step, int taps, int count, float* out) {
+  const hn::ScalableTag<float> d;
+  for (int x = 0; x < count; x += static_cast<int>(hn::Lanes(d))) {
+    auto largest = hn::LoadU(d, in + x);
+    for (int k = 1; k < taps; ++k) {
+      largest = hn::Max(largest, hn::LoadU(d, in + x + k * step));
+    }
+    hn::StoreU(largest, d, out + x);
+  }
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace thermedge::detail
 HWY_AFTER_NAMESPACE();
@@ -56,9 +67,14 @@ HWY_AFTER_NAMESPACE();
 namespace thermedge::detail {
 
 HWY_EXPORT(suppress_row);
+HWY_EXPORT(largest_row);
 
 void suppress_row(const GradientRow& row, int count, float low, float high, std::uint8_t* classes) {
   THERMEDGE_SIMD_DISPATCH(suppress_row)(row, count, low, high, classes);
+}
+
+void largest_row(const float* in, std::ptrdiff_t step, int taps, int count, float* out) {
+  THERMEDGE_SIMD_DISPATCH(largest_row)(in, step, taps, count, out);
 }
 
 }  // namespace thermedge::detail

@@ -23,4 +23,8 @@ struct GradientRow {
 // above `high`. Reads and writes up to `count` elements rounded up to a vector of 64 bytes.
 void suppress_row(const GradientRow& row, int count, float low, float high, std::uint8_t* classes);
 
+// out[i] = largest of the `taps` values in[i + k step], 0 <= k < taps. Reads and writes up to
+// `count` elements rounded up to a vector of 64 bytes.
+void largest_row(const float* in, std::ptrdiff_t step, int taps, int count, float* out);
+
 }  // namespace thermedge::detail

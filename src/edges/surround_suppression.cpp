@@ -1,5 +1,6 @@
 // The half of the oriented filter that compares a response with what lies to both sides.
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 
 #include "float_frame.hpp"
@@ -37,8 +38,33 @@ float OrientedFilterBank::Impl::suppressed_response_at(int x, int y) const {
   return response(x, y) - 0.5F * least;
 }
 
+// The largest response in the square around each pixel; there is none outside the frame.
+void OrientedFilterBank::Impl::find_largest(ParallelRunner& runner) {
+  const int reach = tuning.ripple_reach_px;
+  const int taps = 2 * reach + 1;
+  for_each_band(runner, [&](int band, int y_begin, int y_end) {
+    float* padded_row = scratch.row(2 * band);
+    for (int y = y_begin; y < y_end; ++y) {
+      std::fill_n(padded_row, scratch.width(), 0.0F);
+      std::copy_n(response.row(y), width, padded_row + reach);
+      detail::largest_row(padded_row, 1, taps, width, largest_in_row.row(y + reach));
+    }
+  });
+  for_each_band(runner, [&](int, int y_begin, int y_end) {
+    for (int y = y_begin; y < y_end; ++y) {
+      detail::largest_row(largest_in_row.row(y), largest_in_row.stride(), taps, width,
+                          largest_around.row(y));
+    }
+  });
+}
+
 // Sets the suppressed_response and the class, before hysteresis, of a pixel on a ridge.
 void OrientedFilterBank::Impl::classify(int x, int y, float over) {
+  if (over < static_cast<float>(tuning.least_sharpness) * response(x, y)) {
+    over = 0;
+  }
+  const float ripple = static_cast<float>(tuning.ripple_share) * largest_around(x, y);
+  over /= std::sqrt(1 + ripple * ripple);
   suppressed_response(x, y) = over;
   edges(x, y) = over > static_cast<float>(options.high)  ? detail::kStrongEdge
                 : over > static_cast<float>(options.low) ? detail::kWeakEdge

@@ -31,7 +31,8 @@ ImageView<const std::uint16_t> Preprocessor::run(const Frame& frame, ParallelRun
   corrections.bad_pixels.clear();
   corrections.stripes.columns.clear();
   corrections.stripes.rows.clear();
-  const double sigma_counts = corrections.noise.sigma_counts;
+  measure_model(corrections);
+  const double sigma_counts = corrections.noise_model.level_counts;
   if (bad_pixel_options_.replace) {
     replace_bad_pixels(corrected_, sigma_counts, bad_pixel_options_, corrections.bad_pixels);
   }
@@ -40,6 +41,17 @@ ImageView<const std::uint16_t> Preprocessor::run(const Frame& frame, ParallelRun
     remove_stripes(corrections.stripes, corrected_);
   }
   return corrected_;
+}
+
+void Preprocessor::measure_model(Corrections& corrections) {
+  NoiseModel& model = corrections.noise_model;
+  if (model_noise_) {
+    model_estimator_.measure(corrected_, valid_view_, corrections.noise.sigma_counts, model);
+    return;
+  }
+  model.level_counts = corrections.noise.sigma_counts;
+  model.spectrum = white_spectrum();
+  model.map.set_even();
 }
 
 void Preprocessor::load(const Frame& frame, Corrections& corrections) {

@@ -36,15 +36,17 @@ void begin(Detection& found, Preset preset, int width, int height) {
   found.stamp_ns = found.index = 0;
   found.flags = 0;
   found.corrections.noise = {};
+  found.corrections.noise_model.level_counts = 0;
+  found.corrections.noise_model.spectrum = white_spectrum();
+  found.corrections.noise_model.map.set_even();
   found.corrections.bad_pixels.clear();
   found.corrections.stripes.columns.clear();
   found.corrections.stripes.rows.clear();
   found.corrections.counts_per_unit = 1;
   found.corrections.offset = 0;
   found.sigma_counts = found.threshold_low = found.threshold_high = 0;
-  found.range_counts = found.unit_counts = 0;
+  found.unit_counts = 0;
   found.kernel_px = {0, 0};
-  found.no_false_alarm_model = {};
   found.edges.clear();
 }
 

@@ -5,6 +5,14 @@
 #include "try.hpp"
 
 namespace thermedge {
+namespace {
+
+// Noise whose level at the scale of edges is this many times that of its pixels has been smoothed:
+// resampled, enlarged, compressed. Below it texture of the scene may be what makes the difference
+// (photographs have up to 2), and noise is taken for white.
+constexpr double kSmoothNoise = 2.5;
+
+}  // namespace
 
 Status FrameDenoiserOptions::check() const {
   return bad_pixels.check().and_then([&] { return stripes.check(); }).and_then([&] {
@@ -14,7 +22,7 @@ Status FrameDenoiserOptions::check() const {
 
 FrameDenoiser::FrameDenoiser(const FrameDenoiserOptions& options)
     : options_(options),
-      preprocessor_(options.bad_pixels, options.stripes),
+      preprocessor_(options.bad_pixels, options.stripes, true),
       denoiser_(options.denoise) {}
 
 Result<ImageView<const std::uint16_t>> FrameDenoiser::run(const Frame& frame,
@@ -28,8 +36,12 @@ Result<ImageView<const std::uint16_t>> FrameDenoiser::run(const Frame& frame,
     counts_.resize(frame.width(), frame.height());
     copy_pixels(preprocessor_.run(frame, runner, corrections_), working_.view());
     const double told = options_.denoise.sigma_counts * corrections_.counts_per_unit;
-    const double sigma = told > 0 ? told : corrections_.noise.sigma_counts;
-    THERMEDGE_TRY(denoiser_.run_measured(working_, sigma, working_, runner));
+    const double pixels = corrections_.noise.sigma_counts;
+    const bool is_smooth = corrections_.noise_model.level_counts > kSmoothNoise * pixels;
+    THERMEDGE_TRY(
+        told <= 0 && is_smooth
+            ? denoiser_.run_measured(working_, corrections_.noise_model, working_, runner)
+            : denoiser_.run_measured(working_, told > 0 ? told : pixels, working_, runner));
   } catch (const std::bad_alloc&) {
     return failure(ErrorCode::kOutOfMemory, "frame: out of memory");
   }

@@ -65,8 +65,9 @@ void convert_to_frame_units(Detection& found) {
     return;
   }
   NoiseEstimate& noise = found.corrections.noise;
-  for (double* value : {&noise.sigma_counts, &noise.column_sigma_counts, &noise.row_sigma_counts,
-                        &found.sigma_counts, &found.range_counts, &found.unit_counts}) {
+  for (double* value :
+       {&noise.sigma_counts, &noise.column_sigma_counts, &noise.row_sigma_counts,
+        &found.corrections.noise_model.level_counts, &found.sigma_counts, &found.unit_counts}) {
     *value *= unit;
   }
   for (std::vector<float>* offsets :

@@ -18,6 +18,7 @@ void set_robust(DetectorOptions& options) {
   options.denoise.sigma_scale = 1.2;
   options.denoise.detrend = true;
   options.denoise.bm3d.adjacent_blocks = false;
+  options.denoise.bm3d.keep_slopes = true;
   options.denoise.bilateral.range_sigmas = 0.2;
   options.selection = {
       .keep_edges = 0, .max_edgels = 0, .min_score = -0.6, .max_false_alarms = 0.1};
@@ -30,7 +31,7 @@ void set_fast(DetectorOptions& options) {
   options.denoise.gaussian.sigma_px = 2;
   options.denoise.detrend = true;
   options.denoise.bilateral.range_sigmas = 0.3;
-  options.selection.min_score = 0.15;
+  options.selection.min_score = 0;
 }
 
 }  // namespace

@@ -1,12 +1,14 @@
 #include "robust_pipeline.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <span>
 
+#include "order_statistics.hpp"
 #include "stage_clock.hpp"
 #include "thermedge/radiometry/grey_scale.hpp"
 #include "thermedge/stages/contrast.hpp"
-#include "thermedge/stages/significance.hpp"
 #include "thermedge/stages/subpixel.hpp"
 #include "try.hpp"
 
@@ -15,7 +17,8 @@ namespace thermedge::detail {
 Status RobustPipeline::detect(const Frame& frame, const Call& call, Detection& found) {
   StageClock clock(found.times, call.stop);
   counts_ = preprocessor_.run(frame, call.runner, found.corrections);
-  measure_noise_scale(found);
+  take_told_noise(found.corrections);
+  find_noise_scale(found);
   THERMEDGE_TRY(clock.lap("correct", {}));
   THERMEDGE_TRY(clock.lap("denoise", denoise(call.runner, found)));
   THERMEDGE_TRY(clock.lap("edge_pixels", find_edge_pixels(call.runner, found)));
@@ -26,7 +29,7 @@ Status RobustPipeline::detect(const Frame& frame, const Call& call, Detection& f
       "scores", scorer_.run(linked_, corners_, pixels_.suppressed_response, found.edges)));
   test_edges(found);
   THERMEDGE_TRY(clock.lap("significance", {}));
-  refine_positions(pixels_.response, pixels_.kernel, noise_.sigma_counts / noise_.unit_counts,
+  refine_positions(pixels_.response, pixels_.kernel, found.sigma_counts / noise_.unit_counts,
                    found.edges);
   THERMEDGE_TRY(clock.lap("positions", {}));
   THERMEDGE_TRY(clock.lap("selection", select(found)));
@@ -60,8 +63,7 @@ Status RobustPipeline::trace(ImageView<const std::uint8_t> edge_map, const Call&
 RobustPipeline::RobustPipeline(const DetectorOptions& options, const RobustOptions& own)
     : options_(options),
       filter_options_(own.oriented_filter),
-      false_alarms_(look_up_false_alarms(options.denoise, own.oriented_filter)),
-      preprocessor_(options.bad_pixels, options.stripes),
+      preprocessor_(options.bad_pixels, options.stripes, true),
       denoiser_(options.denoise),
       filter_(own.oriented_filter),
       graph_(own.graph),
@@ -74,62 +76,84 @@ RobustPipeline::RobustPipeline(const DetectorOptions& options, const RobustOptio
                 .min_score = -1e9,
                 .max_false_alarms = 0}) {}
 
-void RobustPipeline::measure_noise_scale(Detection& found) {
-  const double told = options_.denoise.sigma_counts * found.corrections.counts_per_unit;
-  const double sigma = told > 0 ? told : found.corrections.noise.sigma_counts;
-  const double range = measure_range();
-  noise_.sigma_counts = sigma;
-  noise_.range_counts = range;
-  noise_.is_noisy = sigma > tuning_.no_noise_share * range;
-  const double rounding = noise_.is_noisy ? 0 : tuning_.rounding_counts;
-  noise_.unit_counts = std::hypot(sigma, filter_options_.noise_floor * range, rounding);
-  noise_.kernel_share = std::clamp(
-      (sigma / range - tuning_.clean_share) / (tuning_.full_share - tuning_.clean_share), 0.0, 1.0);
-  // Where there is hardly any noise a Gaussian only blurs; and the ripple that BM3D leaves comes
-  // with strong noise: taking it off steepens slopes.
-  const bool blurs = options_.denoise.method == DenoiseMethod::kGaussian;
-  noise_.denoise_share =
-      blurs ? std::min(sigma / range / tuning_.clean_share, 1.0) : noise_.kernel_share;
-  found.sigma_counts = noise_.is_noisy ? sigma : 0;
-  found.range_counts = range;
+// The level is the caller's word, its spectrum and map are still those of the frame.
+void RobustPipeline::take_told_noise(Corrections& corrections) const {
+  const double told = options_.denoise.sigma_counts * corrections.counts_per_unit;
+  if (told > 0) {
+    corrections.noise_model.level_counts = told;
+  }
+}
+
+void RobustPipeline::find_noise_scale(Detection& found) {
+  const double level = found.corrections.noise_model.level_counts;
+  const double pixels = found.corrections.noise.sigma_counts;
+  noise_.noisiness = std::clamp(
+      std::max(level / tuning_.no_noise_counts, pixels / tuning_.no_pixel_noise_counts) - 1, 0.0,
+      1.0);
+  const double clean = 1 - noise_.noisiness;
+  const double least = clean > 0 ? tuning_.least_contrast_share * usual_contrast() : 0;
+  noise_.unit_counts =
+      std::hypot(tuning_.unit_sigmas * level, clean * least, clean * tuning_.terrace_counts);
+  found.sigma_counts = noise_.noisiness > 0 ? level : 0;
   found.unit_counts = noise_.unit_counts;
 }
 
-// The sampled pixels of a mirrored frame are the mirrored ones.
-double RobustPipeline::measure_range() {
-  const auto is_sampled = [&](int i, int size) {
-    return std::min(i, size - 1 - i) % tuning_.sample_step_px == 0;
-  };
-  sample_.clear();
-  for (int y = 0; y < counts_.height(); ++y) {
-    if (!is_sampled(y, counts_.height())) {
-      continue;
-    }
-    for (int x = 0; x < counts_.width(); ++x) {
-      if (is_sampled(x, counts_.width())) {
-        sample_.push_back(counts_(x, y));
+double RobustPipeline::usual_contrast() {
+  const int side = tuning_.square_px;
+  spans_.clear();
+  spans_.reserve(counts_.size() / static_cast<std::size_t>(side * side) + 1);
+  for (int y = 0; y + side <= counts_.height(); y += side) {
+    for (int x = 0; x + side <= counts_.width(); x += side) {
+      std::uint16_t least = counts_(x, y);
+      std::uint16_t greatest = least;
+      for (int j = y; j < y + side; ++j) {
+        const auto [low, high] = std::minmax_element(counts_.row(j) + x, counts_.row(j) + x + side);
+        least = std::min(least, *low);
+        greatest = std::max(greatest, *high);
       }
+      spans_.push_back(greatest - least);
     }
   }
-  const auto quantile = [&](double share) {
-    const auto at = sample_.begin() +
-                    static_cast<std::ptrdiff_t>(share * static_cast<double>(sample_.size() - 1));
-    std::nth_element(sample_.begin(), at, sample_.end());
-    return static_cast<double>(*at);
-  };
-  return std::max(quantile(1 - tuning_.tail_share) - quantile(tuning_.tail_share),
-                  tuning_.least_range_counts);
+  if (spans_.empty()) {
+    return 0;
+  }
+  const auto rank =
+      static_cast<std::size_t>(tuning_.usual_quantile * static_cast<double>(spans_.size() - 1));
+  return nth_value(std::span(spans_), rank);
 }
 
 Status RobustPipeline::denoise(ParallelRunner& runner, Detection& found) {
   denoised_.resize(found.width, found.height);
   copy_pixels(counts_, denoised_.view());
-  return denoiser_.run_measured(denoised_, found.sigma_counts, denoised_, runner,
-                                noise_.denoise_share);
+  const NoiseModel& noise = noise_.noisiness > 0 ? found.corrections.noise_model : no_noise_;
+  return denoiser_.run_measured(denoised_, noise, denoised_, runner, noise_.noisiness).map([&] {
+    even_ = even_out(noise.map);
+  });
+}
+
+// Distances from the mean over the level of the noise.
+ImageView<const float> RobustPipeline::even_out(const NoiseLevelMap& map) {
+  evened_.resize(denoised_.width(), denoised_.height());
+  levels_.resize(denoised_.width(), 1);
+  if (map.is_even()) {
+    return denoised_;
+  }
+  double sum = 0;
+  for (int y = 0; y < counts_.height(); ++y) {
+    sum += std::accumulate(counts_.row(y), counts_.row(y) + counts_.width(), 0.0);
+  }
+  const auto mean = static_cast<float>(sum / static_cast<double>(counts_.size()));
+  for (int y = 0; y < denoised_.height(); ++y) {
+    map.row(y, levels_.row(0));
+    std::transform(denoised_.row(y), denoised_.row(y) + denoised_.width(), levels_.row(0),
+                   evened_.row(y),
+                   [=](float value, float level) { return mean + (value - mean) / level; });
+  }
+  return evened_;
 }
 
 Status RobustPipeline::find_edge_pixels(ParallelRunner& runner, Detection& found) {
-  return filter_.run(denoised_, noise_.unit_counts, noise_.kernel_share, runner)
+  return filter_.run(even_, noise_.unit_counts, noise_.noisiness, runner)
       .map([&](const OrientedFilterResult& pixels) {
         pixels_ = pixels;
         pixels_.edges = mask_invalid(pixels.edges, preprocessor_.valid(), masked_);
@@ -147,28 +171,13 @@ Status RobustPipeline::close_gaps() {
     const double score = saliency(traced_.contours.pixels(contour), pixels_.suppressed_response);
     eligible_.push_back(score >= options_.selection.min_score ? 1 : 0);
   }
-  return gap_closer_.run(traced_, denoised_, eligible_, linked_);
+  return gap_closer_.run(traced_, even_, eligible_, linked_);
 }
 
 // On the counts before denoising: a denoiser can invent an edge, the frame itself confirms it.
 void RobustPipeline::test_edges(Detection& found) {
-  const auto root_mean_square = [](std::span<const float> values) {
-    double sum = 0;
-    for (const float value : values) {
-      sum += static_cast<double>(value) * value;
-    }
-    return values.empty() ? 0 : std::sqrt(sum / static_cast<double>(values.size()));
-  };
-  const StripeOffsets& stripes = found.corrections.stripes;
-  const double strength =
-      std::max(root_mean_square(stripes.columns), root_mean_square(stripes.rows)) /
-      noise_.sigma_counts;
-  const double left = std::max(tuning_.stripes_left_sigmas, tuning_.stripes_left_share * strength);
-  const double stripe_sigmas =
-      strength > 0 ? std::hypot(left, tuning_.count_step_deviation / noise_.sigma_counts) : 0;
-  test_significance(counts_, found.sigma_counts, pixels_.direction,
-                    {.stripe_sigmas = stripe_sigmas, .model = false_alarms_.model}, found.edges);
-  found.no_false_alarm_model = false_alarms_.why_none;
+  const NoiseModel& noise = noise_.noisiness > 0 ? found.corrections.noise_model : no_noise_;
+  significance_.run(counts_, noise, pixels_, found.edges);
 }
 
 Status RobustPipeline::select(Detection& found) {

@@ -2,10 +2,8 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <vector>
 
-#include "false_alarm_models.hpp"
 #include "pipeline.hpp"
 #include "thermedge/stages/corners.hpp"
 #include "thermedge/stages/denoiser.hpp"
@@ -15,42 +13,35 @@
 #include "thermedge/stages/preprocessor.hpp"
 #include "thermedge/stages/scoring.hpp"
 #include "thermedge/stages/selection.hpp"
+#include "thermedge/stages/significance.hpp"
 
 namespace thermedge::detail {
 
-// Measured on simulated frames of 130 counts of range with noise of 1 to 30 counts and stripes of a
-// third of it (docs/tuning.md).
+// What responses are in units of. Measured on simulated scenes of eleven conditions
+// (docs/tuning.md, "Unit").
 struct NoiseScaleTuning {
-  // Noise below this share of the frame's range is none.
-  double no_noise_share = 0.002;
-  // Added to the noise where there is none, counts: without noise a slope comes as terraces of one
-  // count, which are no edges.
-  double rounding_counts = 10;
-  // Noise-to-range ratio at which denoising starts (0) and reaches full strength (1). From the
-  // first on a Gaussian blurs as much as its options say.
-  double clean_share = 0.036;
-  double full_share = 0.05;
-  // Range: from this share of the pixels to one less this share, of every step-th pixel of every
-  // step-th row; at least least_range_counts, of a frame without any contrast.
-  double tail_share = 0.001;
-  int sample_step_px = 4;
-  double least_range_counts = 1;
-  // Standard deviation of what removed stripes leave, in units of the noise and, of strong ones, as
-  // a share of them: beside walls they cannot be told from the scene. Corrected counts are whole
-  // numbers: 1 / sqrt(12) counts.
-  double stripes_left_sigmas = 0.08;
-  double stripes_left_share = 1.0 / 6;
-  double count_step_deviation = 0.2887;
+  // Unit of responses, in units of the noise's level: a smaller one lets noise through to the
+  // tests, a larger one loses faint edges before them.
+  double unit_sigmas = 1.62;
+  // Noise up to this level at the scale of edges, and this deviation from pixel to pixel, counts,
+  // is as good as none, and from twice one of them on it is all there is. Rounding to whole counts
+  // has .29; smooth scenes without noise look like .7 to 1.3 at the scale of edges.
+  double no_noise_counts = 1.5;
+  double no_pixel_noise_counts = 0.3;
+  // Without noise, what is hardly there beside the usual edges of the frame is shading: the unit
+  // is at least this share of their contrast, for which stands the span of counts that a tenth of
+  // all squares of this side exceed (a small hot thing does not change it); and at least so many
+  // counts, because a slope comes as terraces of one count.
+  double least_contrast_share = 0.25;
+  double usual_quantile = 0.9;
+  int square_px = 8;
+  double terrace_counts = 10;
 };
 
 // The noise of one frame as the stages after it see it.
 struct NoiseScale {
-  double sigma_counts = 0;   // measured, or as told
-  double range_counts = 1;   // 0.1st to 99.9th percentile of the frame
-  double unit_counts = 1;    // what responses are in units of
-  double kernel_share = 0;   // of the way from the clean kernels to those for noise, 0..1
-  double denoise_share = 0;  // of the denoiser's full strength, 0..1
-  bool is_noisy = false;     // else nothing is denoised, and every contrast is certain
+  double unit_counts = 1;  // what responses are in units of, where the noise's map is 1
+  double noisiness = 0;    // 0: as good as none, 1: noise is all that limits what can be told
 };
 
 class RobustPipeline final : public Pipeline {
@@ -62,16 +53,18 @@ class RobustPipeline final : public Pipeline {
 
   [[nodiscard]] std::size_t memory_bytes() const override {
     return memory_of(preprocessor_, denoiser_, filter_, graph_, gap_closer_, corner_finder_,
-                     scorer_, selector_, budgets_, sample_, denoised_, masked_,
-                     traced_.contours.points, traced_.contours.items, eligible_,
+                     scorer_, significance_, selector_, budgets_, spans_, denoised_, levels_,
+                     evened_, masked_, traced_.contours.points, traced_.contours.items, eligible_,
                      linked_.contours.points, linked_.contours.items, linked_.links,
                      corners_.indices, corners_.ranges);
   }
 
  private:
-  void measure_noise_scale(Detection& found);
-  [[nodiscard]] double measure_range();
+  void take_told_noise(Corrections& corrections) const;
+  void find_noise_scale(Detection& found);
+  [[nodiscard]] double usual_contrast();
   Status denoise(ParallelRunner& runner, Detection& found);
+  [[nodiscard]] ImageView<const float> even_out(const NoiseLevelMap& map);
   Status find_edge_pixels(ParallelRunner& runner, Detection& found);
   Status close_gaps();
   void test_edges(Detection& found);
@@ -81,7 +74,6 @@ class RobustPipeline final : public Pipeline {
   DetectorOptions options_;
   OrientedFilterOptions filter_options_;
   NoiseScaleTuning tuning_;
-  FalseAlarmLookup false_alarms_;
   Preprocessor preprocessor_;
   Denoiser denoiser_;
   OrientedFilterBank filter_;
@@ -89,14 +81,18 @@ class RobustPipeline final : public Pipeline {
   GapCloser gap_closer_;
   CornerFinder corner_finder_;
   Scorer scorer_;
+  SignificanceTest significance_;
   EdgeSelector selector_;
   EdgeSelector budgets_;  // without tests, which need a frame
 
   ImageView<const std::uint16_t> counts_;
   NoiseScale noise_;
-  std::vector<std::uint16_t> sample_;
-  Image<float> denoised_;        // counts
-  OrientedFilterResult pixels_;  // views of what filter_ holds
+  NoiseModel no_noise_;
+  std::vector<int> spans_;
+  Image<float> denoised_;         // counts
+  Image<float> levels_, evened_;  // of the noise in a row; denoised counts over it
+  ImageView<const float> even_;   // denoised counts with the same noise everywhere
+  OrientedFilterResult pixels_;   // views of what filter_ holds
   Image<std::uint8_t> masked_;
   LinkedContours traced_;               // by the graph
   std::vector<std::uint8_t> eligible_;  // of its contours: whose gaps are closed

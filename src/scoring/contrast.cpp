@@ -21,13 +21,20 @@ double number_of_tests(const EdgeSet& edges) {
 
 void measure_contrast(ImageView<const std::uint16_t> frame, double sigma_counts, EdgeSet& edges,
                       const ContrastTuning& tuning) {
-  detail::measure_all(
-      frame, sigma_counts, number_of_tests(edges), tuning.farthest_px, tuning, edges,
-      [](const Edge&) {},
-      [&](const detail::Contrast& contrast, const Edge&) {
-        return detail::z_of(contrast, sigma_counts, 0);
-      },
-      [](const Edge& edge) { return std::log10(2.0) + detail::log10_tail(edge.z); });
+  const double log10_tests = std::log10(number_of_tests(edges));
+  for (Edge& edge : edges.edges) {
+    detail::set_normals(edges.edgels, edge);
+    detail::Contrast contrast =
+        detail::contrast_across(frame, edges.edgels, edge.edgels, tuning.farthest_px, tuning);
+    if (contrast.counts < 0) {
+      detail::flip_normals(edges.edgels, edge.edgels);
+      contrast.counts = -contrast.counts;
+    }
+    detail::measure_edgels(frame, sigma_counts, edge.edgels, edges.edgels);
+    edge.contrast_counts = contrast.counts;
+    edge.z = detail::z_of(contrast, sigma_counts);
+    edge.log10_nfa = log10_tests + std::log10(2.0) + detail::log10_tail(edge.z);
+  }
 }
 
 void set_normals_from_shape(EdgeSet& edges) {

@@ -149,6 +149,25 @@ void differences(ImageView<const std::uint16_t> frame, const Edgels& edgels, std
   }
 }
 
+void slopes_beside(ImageView<const std::uint16_t> frame, const Edgels& edgels, std::size_t first,
+                   std::size_t count, const Beside& where, RunOfDoubles& out) {
+  const double middle = where.side * (where.from_px + where.to_px) / 2;
+  const double half = (where.to_px - where.from_px) / 2;
+  std::array<float, kMostEdgels> x;
+  std::array<float, kMostEdgels> y;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t at = first + i;
+    x[i] = static_cast<float>(edgels.x[at] + middle * edgels.nx[at]);
+    y[i] = static_cast<float>(edgels.y[at] + middle * edgels.ny[at]);
+  }
+  const EdgelRun run{x.data(), y.data(), &edgels.nx[first], &edgels.ny[first],
+                     static_cast<int>(count)};
+  differences_across(frame, run, half, out.data());
+  const double scale = kContrastPx / (2 * half);
+  std::transform(out.begin(), out.begin() + static_cast<std::ptrdiff_t>(count), out.begin(),
+                 [=](double difference) { return scale * difference; });
+}
+
 Contrast contrast_across(ImageView<const std::uint16_t> frame, const Edgels& edgels, Range range,
                          double farthest_px, const ContrastTuning& tuning) {
   constexpr std::size_t kMostSteps = ContrastTuning::kMostSteps;
@@ -193,13 +212,12 @@ void measure_edgels(ImageView<const std::uint16_t> frame, double sigma_counts, R
   });
 }
 
-double z_of(const Contrast& contrast, double sigma_counts, double more_variance) {
+double z_of(const Contrast& contrast, double sigma_counts) {
   if (contrast.counts == 0) {
     return 0;
   }
-  return sigma_counts > 0
-             ? contrast.counts / (sigma_counts * std::sqrt(2.0 / contrast.samples + more_variance))
-             : std::numeric_limits<double>::infinity();
+  return sigma_counts > 0 ? contrast.counts / (sigma_counts * std::sqrt(2.0 / contrast.samples))
+                          : std::numeric_limits<double>::infinity();
 }
 
 // Far out, where the probability itself would underflow,

@@ -29,6 +29,21 @@ using RunOfDoubles = std::array<double, kMostEdgels>;
 void differences(ImageView<const std::uint16_t> frame, const Edgels& edgels, std::size_t first,
                  std::size_t count, double distance, RunOfDoubles& out);
 
+// A contrast from 1.5 to 4.5 px on both sides is what a slope makes over this many px.
+inline constexpr double kContrastPx = 6;
+
+// Where a slope is taken: on the side to which the normals point (1) or on the other one (-1).
+struct Beside {
+  double side = 1;
+  double from_px = 0;
+  double to_px = 0;
+};
+
+// What the slope beside each of `count` edgels, at most kMostEdgels, makes of a contrast, counts;
+// NaN where it leaves the frame.
+void slopes_beside(ImageView<const std::uint16_t> frame, const Edgels& edgels, std::size_t first,
+                   std::size_t count, const Beside& where, RunOfDoubles& out);
+
 struct Contrast {
   double counts = 0;  // mean over the samples
   int samples = 0;
@@ -47,32 +62,10 @@ void flip_normals(Edgels& edgels, Range range);
 void measure_edgels(ImageView<const std::uint16_t> frame, double sigma_counts, Range range,
                     Edgels& edgels);
 
-// `more_variance`: of the contrast, in units of the noise, beside that of its samples.
-[[nodiscard]] double z_of(const Contrast& contrast, double sigma_counts, double more_variance);
+// In units of its standard deviation; infinite without noise.
+[[nodiscard]] double z_of(const Contrast& contrast, double sigma_counts);
 
 // log10 of P(Z > z) for a standard normal Z.
 [[nodiscard]] double log10_tail(double z);
-
-// The contrast is that from nearest_px to `farthest_px` on both sides. significance(contrast, edge)
-// is the z of an edge; orient(edge) may turn normals round before.
-template <class Orient, class Significance, class Tail>
-void measure_all(ImageView<const std::uint16_t> frame, double sigma_counts, double tests,
-                 double farthest_px, const ContrastTuning& tuning, EdgeSet& edges, Orient&& orient,
-                 Significance&& significance, Tail&& log10_p) {
-  const double log10_tests = std::log10(tests);
-  for (Edge& edge : edges.edges) {
-    set_normals(edges.edgels, edge);
-    orient(edge);
-    Contrast contrast = contrast_across(frame, edges.edgels, edge.edgels, farthest_px, tuning);
-    if (contrast.counts < 0) {
-      flip_normals(edges.edgels, edge.edgels);
-      contrast.counts = -contrast.counts;
-    }
-    measure_edgels(frame, sigma_counts, edge.edgels, edges.edgels);
-    edge.contrast_counts = contrast.counts;
-    edge.z = significance(contrast, edge);
-    edge.log10_nfa = log10_tests + log10_p(edge);
-  }
-}
 
 }  // namespace thermedge::detail

@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstddef>
+#include <iterator>
 #include <limits>
 #include <numbers>
+#include <vector>
 
+#include "contrast_spread.hpp"
 #include "edgel_contrast.hpp"
-#include "thermedge/stages/oriented_filter.hpp"
+#include "thermedge/memory.hpp"
+#include "thermedge/stages/scoring.hpp"
 
 namespace thermedge {
 namespace {
@@ -17,44 +20,6 @@ struct Vector {
   double x = 0;
   double y = 0;
 };
-
-// Contribution of the slope of the scene around an edge to its contrast, counts.
-double contrast_of_slope(ImageView<const std::uint16_t> frame, const Edgels& edgels, Range range,
-                         const SignificanceTuning& tuning) {
-  const double far_px = tuning.slope_px;
-  double sum = 0;
-  int samples = 0;
-  detail::for_each_run(range, [&](std::size_t first, std::size_t count) {
-    detail::RunOfDoubles steps;
-    detail::differences(frame, edgels, first, count, far_px, steps);
-    for (std::size_t i = 0; i < count; ++i) {
-      const bool seen = !std::isnan(steps[i]);
-      sum += seen ? steps[i] : 0;
-      samples += seen ? 1 : 0;
-    }
-  });
-  const double mean_px = (tuning.contrast.nearest_px + tuning.contrast.farthest_px) / 2;
-  return samples > 0 ? sum / samples * mean_px / far_px : 0;
-}
-
-// How much of an edge runs along one column or row: 1 for a straight one along an axis, 1 / sqrt(2)
-// where half runs along either, next to 0 for one at 45 degrees.
-double alignment(const Edgels& edgels, Range range) {
-  const auto power_16 = [](float value) {
-    double power = value;
-    for (int i = 0; i < 4; ++i) {
-      power *= power;
-    }
-    return power;
-  };
-  double upright = 0;
-  double level = 0;
-  for (std::size_t i = range.first; i < range.first + range.count; ++i) {
-    upright += power_16(edgels.nx[i]);
-    level += power_16(edgels.ny[i]);
-  }
-  return std::sqrt(upright * upright + level * level) / range.count;
-}
 
 // Unit vectors at all directions of edges.
 std::array<Vector, kEdgeDirections> directions() {
@@ -66,42 +31,241 @@ std::array<Vector, kEdgeDirections> directions() {
   return along;
 }
 
+// What slopes make of a contrast, as far as they are measured on one side of an edge.
+struct SideSlopes {
+  double chord = 0;
+  double ramp = 0;  // by its less steep half
+};
+
+// Mean of the values but for a share at either end of their order; 0 of none. Reorders them.
+double trimmed_mean(std::vector<double>& values, double share) {
+  if (values.empty()) {
+    return 0;
+  }
+  std::sort(values.begin(), values.end());
+  const auto cut = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size()));
+  double sum = 0;
+  for (auto value = values.begin() + cut; value != values.end() - cut; ++value) {
+    sum += *value;
+  }
+  return sum / static_cast<double>(static_cast<std::ptrdiff_t>(values.size()) - 2 * cut);
+}
+
+// Of an edge, counts.
+struct Step {
+  double counts = 0;  // contrast less the slope
+  double slope = 0;   // what slopes of the scene make of the contrast
+};
+
+// How much an edge stands out of edges of noise, in standard deviations of these; and the natural
+// logarithm of its mean suppressed response.
+struct Evidence {
+  double climb = 0;
+  double log_response = 0;
+};
+
 }  // namespace
 
-void test_significance(ImageView<const std::uint16_t> frame, double sigma_counts,
-                       ImageView<const std::int32_t> direction, const SignificanceOptions& options,
-                       EdgeSet& edges, const SignificanceTuning& tuning) {
-  const auto pixels = static_cast<double>(frame.size());
-  Edgels& edgels = edges.edgels;
-  const auto along = directions();
-  const auto orient = [&](const Edge& edge) {
-    for (std::size_t i = edge.edgels.first; i < edge.edgels.first + edge.edgels.count; ++i) {
-      const int steps = direction(static_cast<int>(edgels.x[i]), static_cast<int>(edgels.y[i]));
-      const Vector way = along[static_cast<std::size_t>(steps)];
-      if (way.x * edgels.ny[i] - way.y * edgels.nx[i] < 0) {
-        detail::flip_normals(edgels, {static_cast<std::uint32_t>(i), 1});
+struct SignificanceTest::Impl {
+  explicit Impl(const SignificanceTuning& chosen)
+      : tuning(chosen), spread(chosen.spread, chosen.slopes, chosen.contrast) {}
+
+  void prepare(int width, int height, const EdgeSet& edges);
+  void mark_busy(const OrientedFilterResult& pixels);
+  void orient(const OrientedFilterResult& pixels, const Edge& edge, Edgels& edgels) const;
+  SideSlopes slopes(ImageView<const std::uint16_t> frame, const Edgels& edgels, Range range,
+                    double side);
+  double explained(ImageView<const std::uint16_t> frame, const Edgels& edgels, Range range,
+                   double level, double contrast);
+  [[nodiscard]] double z_of_edge(const NoiseModel& noise, const Edgels& edgels, const Edge& edge,
+                                 const Step& step) const;
+  [[nodiscard]] Evidence evidence(const Edge& edge) const;
+  void count_false_alarms(double pixels, EdgeSet& edges) const;
+
+  SignificanceTuning tuning;
+  detail::ContrastSpread spread;
+  Image<std::uint8_t> busy;
+  std::vector<double> of_edgels;
+  std::array<Vector, kEdgeDirections> along = directions();
+};
+
+void SignificanceTest::Impl::prepare(int width, int height, const EdgeSet& edges) {
+  spread.prepare(width, height);
+  busy.resize(width, height);
+  of_edgels.reserve(edges.edgels.x.capacity());
+}
+
+void SignificanceTest::Impl::mark_busy(const OrientedFilterResult& pixels) {
+  const int width = pixels.edges.width();
+  const int height = pixels.edges.height();
+  const int reach = tuning.spread.clearance_px;
+  fill_pixels(busy.view(), std::uint8_t{0});
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      if (pixels.edges(x, y) == 0 ||
+          static_cast<double>(pixels.suppressed_response(x, y)) <= tuning.spread.sure_response) {
+        continue;
+      }
+      const int left = std::max(x - reach, 0);
+      const int count = std::min(x + reach, width - 1) - left + 1;
+      for (int j = std::max(y - reach, 0); j <= std::min(y + reach, height - 1); ++j) {
+        std::fill_n(busy.row(j) + left, count, std::uint8_t{1});
+      }
+    }
+  }
+}
+
+// Normals to the side that is warmer by the filter.
+void SignificanceTest::Impl::orient(const OrientedFilterResult& pixels, const Edge& edge,
+                                    Edgels& edgels) const {
+  for (std::size_t i = edge.edgels.first; i < edge.edgels.first + edge.edgels.count; ++i) {
+    const int steps =
+        pixels.direction(static_cast<int>(edgels.x[i]), static_cast<int>(edgels.y[i]));
+    const Vector way = along[static_cast<std::size_t>(steps)];
+    if (way.x * edgels.ny[i] - way.y * edgels.nx[i] < 0) {
+      detail::flip_normals(edgels, {static_cast<std::uint32_t>(i), 1});
+    }
+  }
+}
+
+SideSlopes SignificanceTest::Impl::slopes(ImageView<const std::uint16_t> frame,
+                                          const Edgels& edgels, Range range, double side) {
+  const SideSlopeTuning& own = tuning.slopes;
+  const auto mean_over = [&](double from_px, double to_px) {
+    of_edgels.clear();
+    detail::for_each_run(range, [&](std::size_t first, std::size_t count) {
+      detail::RunOfDoubles part;
+      detail::slopes_beside(frame, edgels, first, count, {side, from_px, to_px}, part);
+      std::copy_if(part.begin(), part.begin() + static_cast<std::ptrdiff_t>(count),
+                   std::back_inserter(of_edgels), [](double slope) { return !std::isnan(slope); });
+    });
+    return trimmed_mean(of_edgels, own.trim);
+  };
+  return {mean_over(own.chord_from_px, own.chord_to_px),
+          std::min(mean_over(own.ramp_from_px, own.ramp_by_px),
+                   mean_over(own.ramp_by_px, own.ramp_to_px))};
+}
+
+// The part of a contrast that slopes of the scene explain, counts.
+double SignificanceTest::Impl::explained(ImageView<const std::uint16_t> frame, const Edgels& edgels,
+                                         Range range, double level, double contrast) {
+  const SideSlopeTuning& own = tuning.slopes;
+  const SideSlopes ahead = slopes(frame, edgels, range, 1);
+  const SideSlopes behind = slopes(frame, edgels, range, -1);
+  const double through = std::min((ahead.chord + behind.chord) / 2,
+                                  own.most_uneven * std::min(ahead.chord, behind.chord));
+  // Of two pixels, that far apart, for every edgel.
+  const double deviation = detail::kContrastPx / (own.ramp_by_px - own.ramp_from_px) * level *
+                           std::sqrt(2.0 / range.count);
+  const double ramp = std::min(std::max(ahead.ramp, behind.ramp) - own.ramp_sigmas * deviation,
+                               own.most_of_ramp * contrast);
+  return std::max({through, ramp, 0.0});
+}
+
+double SignificanceTest::Impl::z_of_edge(const NoiseModel& noise, const Edgels& edgels,
+                                         const Edge& edge, const Step& step) const {
+  const double variance = spread.variance(edgels, edge.edgels, noise.map);
+  // The slope's own noise counts as far as there is one.
+  const double of_slope = tuning.spread.slope_share;
+  const double share =
+      std::min(step.slope / (noise.level_counts * std::sqrt(variance * of_slope)), 1.0);
+  return step.counts /
+         (noise.level_counts * std::sqrt(variance * (1 - of_slope + share * of_slope)));
+}
+
+Evidence SignificanceTest::Impl::evidence(const Edge& edge) const {
+  const NoiseEdgeTuning& own = tuning.noise_edges;
+  const double edgels = edge.edgels.count;
+  return {(edge.z - own.climb * std::sqrt(edgels)) / own.deviation,
+          edge.score - ScoringTuning().length_weight * std::log(edgels)};
+}
+
+void SignificanceTest::Impl::count_false_alarms(double pixels, EdgeSet& edges) const {
+  const NoiseEdgeTuning& own = tuning.noise_edges;
+  const auto excess_length = [&](const Edge& edge) {
+    return std::max(static_cast<double>(edge.edgels.count) - own.shortest, 0.0);
+  };
+  // Those below the mean of noise stand for as many above it.
+  const auto for_each_candidate = [&](auto&& task) {
+    for (const Edge& edge : edges.edges) {
+      const Evidence found = evidence(edge);
+      if (edge.z > 0 && found.climb < 0) {
+        task(edge, found);
       }
     }
   };
-  const auto significance = [&](detail::Contrast contrast, const Edge& edge) {
-    if (sigma_counts == 0) {
-      return detail::z_of(contrast, 0, 0);
-    }
-    const double slope = contrast_of_slope(frame, edgels, edge.edgels, tuning);
-    contrast.counts = std::clamp(contrast.counts - slope, 0.0, contrast.counts);
-    const double stripes = options.stripe_sigmas * alignment(edgels, edge.edgels);
-    return detail::z_of(contrast, sigma_counts, stripes * stripes);
-  };
-  detail::measure_all(frame, sigma_counts, 1, tuning.contrast.farthest_px, tuning.contrast, edges,
-                      orient, significance, [&](const Edge& edge) {
-                        return options.model ? options.model->log10_nfa(edge, pixels)
-                                             : std::numeric_limits<double>::quiet_NaN();
-                      });
+  double candidates = 0;
+  double length = own.weight * own.mean_length;
+  double log_response = own.weight * own.log_response;
+  for_each_candidate([&](const Edge& edge, const Evidence& found) {
+    candidates += 2;
+    length += 2 * excess_length(edge);
+    log_response += 2 * found.log_response;
+  });
+  const double weight = candidates + own.weight;
+  length = std::clamp(length / weight, own.mean_length, own.longest_mean_length);
+  log_response /= weight;
+  double excess = own.weight * own.log_response_excess;
+  for_each_candidate([&](const Edge&, const Evidence& found) {
+    excess += 2 * std::max(found.log_response - log_response, 0.0);
+  });
+  excess *= 2 / weight;  // the mean of an exponential one, of which half is above the mean
+  const auto sure = std::count_if(edges.edges.begin(), edges.edges.end(), [&](const Edge& edge) {
+    return evidence(edge).climb > own.sure_deviations;
+  });
+  candidates = std::max(candidates - own.faint_per_sure * static_cast<double>(sure),
+                        pixels / own.px_per_candidate);
+  for (Edge& edge : edges.edges) {
+    const Evidence found = evidence(edge);
+    const double of_climb = -detail::log10_tail(found.climb) / std::numbers::log10e;
+    const double of_the_rest =
+        excess_length(edge) / length + std::max(found.log_response - log_response, 0.0) / excess;
+    const double x = found.climb >= own.least_climb ? of_climb + of_the_rest : of_climb;
+    edge.log10_nfa = std::log10(candidates * (1 + x + x * x / 2)) - x * std::numbers::log10e;
+  }
 }
 
-double FalseAlarmModel::log10_nfa(const Edge& edge, double pixels) const {
-  const double evidence = edge.z + per_score * std::min(edge.score, most_score);
-  return std::log10(pixels / px_per_candidate) + detail::log10_tail((evidence - mean) / deviation);
+SignificanceTest::SignificanceTest(const SignificanceTuning& tuning)
+    : impl_(std::make_unique<Impl>(tuning)) {}
+SignificanceTest::SignificanceTest(SignificanceTest&&) noexcept = default;
+SignificanceTest& SignificanceTest::operator=(SignificanceTest&&) noexcept = default;
+SignificanceTest::~SignificanceTest() = default;
+
+std::size_t SignificanceTest::memory_bytes() const {
+  return detail::memory_of(impl_->spread, impl_->busy, impl_->of_edgels);
+}
+
+void SignificanceTest::run(ImageView<const std::uint16_t> frame, const NoiseModel& noise,
+                           const OrientedFilterResult& pixels, EdgeSet& edges) {
+  Impl& self = *impl_;
+  const bool is_noisy = noise.level_counts > 0;
+  self.prepare(frame.width(), frame.height(), edges);
+  if (is_noisy) {
+    self.mark_busy(pixels);
+    self.spread.measure(frame, self.busy, noise);
+  }
+  Edgels& edgels = edges.edgels;
+  for (Edge& edge : edges.edges) {
+    detail::set_normals(edgels, edge);
+    self.orient(pixels, edge, edgels);
+    detail::Contrast contrast = detail::contrast_across(
+        frame, edgels, edge.edgels, self.tuning.contrast.farthest_px, self.tuning.contrast);
+    if (contrast.counts < 0) {
+      detail::flip_normals(edgels, edge.edgels);
+      contrast.counts = -contrast.counts;
+    }
+    detail::measure_edgels(frame, noise.level_counts, edge.edgels, edgels);
+    edge.contrast_counts = contrast.counts;
+    const double slope =
+        self.explained(frame, edgels, edge.edgels, noise.level_counts, contrast.counts);
+    contrast.counts = std::max(contrast.counts - slope, 0.0);
+    edge.z = is_noisy ? self.z_of_edge(noise, edgels, edge, {contrast.counts, slope})
+                      : detail::z_of(contrast, 0);
+    edge.log10_nfa = detail::log10_tail(edge.z);
+  }
+  if (is_noisy) {
+    self.count_false_alarms(static_cast<double>(frame.size()), edges);
+  }
 }
 
 }  // namespace thermedge

@@ -137,7 +137,9 @@ TEST(GaussianTest, BlursByTheBurdenOfTheNoise) {
   const auto runner = make_runner(1);
   for (const double burden : {0.0, 0.3, 0.5, 1.0}) {
     Image<float> out(in.width(), in.height());
-    ASSERT_TRUE(denoiser.run_measured(in, 50, out, *runner, burden));
+    NoiseModel noise;
+    noise.level_counts = 50;
+    ASSERT_TRUE(denoiser.run_measured(in, noise, out, *runner, burden));
     const auto expected = gaussian_reference(in, std::max(2 * burden, 0.1));
     for (int y = 0; y < in.height(); ++y) {
       for (int x = 0; x < in.width(); ++x) {

@@ -77,7 +77,12 @@ class PlainEdges {
     if (sides_ == 2) {
       least = std::min(least, at(8) + at(-8));
     }
-    return found_.response(x, y) - 0.5F * least;
+    const float over = found_.response(x, y) - 0.5F * least;
+    if (over < 0.4F * found_.response(x, y)) {
+      return 0;  // a slope
+    }
+    const float ripple = 0.04F * largest_around(x, y);
+    return over / std::sqrt(1 + ripple * ripple);
   }
 
   Image<std::uint8_t> edges;
@@ -97,6 +102,19 @@ class PlainEdges {
     const float side = found_.response(flat ? x + step_x : x, flat ? y : y + step_y);
     // Along an axis the other neighbour does not count, on whichever side it lies.
     return share < 1e-6F ? side : side + share * (found_.response(x + step_x, y + step_y) - side);
+  }
+
+  // Within 10 px across and down.
+  [[nodiscard]] float largest_around(int x, int y) const {
+    float largest = 0;
+    for (int j = -10; j <= 10; ++j) {
+      for (int i = -10; i <= 10; ++i) {
+        if (found_.response.contains(x + i, y + j)) {
+          largest = std::max(largest, found_.response(x + i, y + j));
+        }
+      }
+    }
+    return largest;
   }
 
   [[nodiscard]] PlainClass class_of(int x, int y) const {

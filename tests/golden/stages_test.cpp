@@ -27,7 +27,7 @@ std::uint64_t noise_hash(const Detection& found) {
       .add_rounded(found.corrections.noise.column_sigma_counts, kRelative)
       .add_rounded(found.corrections.noise.row_sigma_counts, kRelative)
       .add_rounded(found.sigma_counts, kRelative)
-      .add_rounded(found.range_counts, kRelative)
+      .add_rounded(found.corrections.noise_model.level_counts, kRelative)
       .add_rounded(found.unit_counts, kRelative)
       .value();
 }
@@ -187,39 +187,39 @@ void expect_hashes(const std::string& spec, const StageHashes& wanted) {
 TEST(GoldenStages, OfRobustInLittleNoise) {
   expect_hashes("sim:corridor?sigma=8&column_sigma=6&row_sigma=3&bad_pixels=20",
                 {{"frame", 0x097D3CB601F24096},
-                 {"noise", 0x64E1755ED0D503A8},
+                 {"noise", 0xA9775CC9614F2693},
                  {"bad pixels", 0x9B5DF59D2CE9529D},
-                 {"stripes", 0x6618217F3BEF7520},
-                 {"corrected", 0x33DD3B7C3C2C83C9},
-                 {"levels", 0xEACDBE0326602838},
-                 {"denoised", 0x3FF66D8F74D6EE5B},
-                 {"edge pixels", 0xB7E95CF2FBE2EB24},
-                 {"contours", 0xE8F05D98A396AE6A},
-                 {"linked", 0x63222EDC9AC529A9},
-                 {"corners", 0xBD5DC9AED253F82E},
-                 {"scores", 0xD879FCC150ED3A5D},
-                 {"significance", 0x06B4862CC43D53A4},
-                 {"positions", 0xDB43CBB554653558},
-                 {"selection", 0xFD1D172F283816FB}});
+                 {"stripes", 0x468A455D6D0EF8EE},
+                 {"corrected", 0xBAA0361CD0D9D725},
+                 {"levels", 0xCCADC028DCC73FAE},
+                 {"denoised", 0x365F0E354528B6C4},
+                 {"edge pixels", 0xB85B4A6DE0B21CA4},
+                 {"contours", 0xC9D8DA30BA324968},
+                 {"linked", 0xE86B6644BD7371E7},
+                 {"corners", 0x596B6E7F9A7E1D56},
+                 {"scores", 0x2C4D5CD243B3DE8E},
+                 {"significance", 0x84CB6053D2B2E102},
+                 {"positions", 0xE231E6EFB819C4E2},
+                 {"selection", 0x8BA4095FD804AF84}});
 }
 
 TEST(GoldenStages, OfRobustInStrongNoise) {
   expect_hashes("sim:desk?sigma=60&column_sigma=30&bad_pixels=20",
                 {{"frame", 0x2A43AE39268BB285},
-                 {"noise", 0xA8E6B9DFDF81DEDA},
+                 {"noise", 0xDD4A6DEF7903F239},
                  {"bad pixels", 0x9B5DF59D2CE9529D},
-                 {"stripes", 0x34811106344451D2},
-                 {"corrected", 0xBF3F8EF7C3E8AB05},
-                 {"levels", 0x92649E88B9168FB9},
-                 {"denoised", 0x1F56A710365CF551},
-                 {"edge pixels", 0x4C44C9D6B2325164},
-                 {"contours", 0x503B9282DF9D71D4},
-                 {"linked", 0x0F8A2D75B3395580},
-                 {"corners", 0xD2A9B31325A96324},
-                 {"scores", 0xA4EC899DE20E579A},
-                 {"significance", 0x30D546914BD7C88A},
-                 {"positions", 0x137F879579DE4948},
-                 {"selection", 0x728E29A194EE70A7}});
+                 {"stripes", 0xD10FCB542F3A8E74},
+                 {"corrected", 0xE33DDDACD4DD8DB7},
+                 {"levels", 0x761AE62BB6898EA6},
+                 {"denoised", 0xBB28C15055370F0F},
+                 {"edge pixels", 0xDBA1166D78A64AE4},
+                 {"contours", 0x26251A18E41FF3A2},
+                 {"linked", 0x1E9ABBBDAAD84D90},
+                 {"corners", 0x55FC6ABE314A6DCB},
+                 {"scores", 0x943D4FDA17BDB0F5},
+                 {"significance", 0x974A017902C2F0E4},
+                 {"positions", 0x640622195553B9A5},
+                 {"selection", 0x1E3830C73AB08A2D}});
 }
 
 }  // namespace

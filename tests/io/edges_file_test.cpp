@@ -68,11 +68,20 @@ TEST(EdgesJson, SaysWhatWasMeasuredAndChosen) {
   const auto of_canny = nlohmann::json::parse(edges_to_json(detection, ""));
   EXPECT_EQ(of_canny["stats"]["measured"]["column_sigma_counts"], 1.25);
   EXPECT_FALSE(of_canny["stats"]["measured"].contains("unit_counts"));
-  detection.range_counts = 750;
+  NoiseModel& noise = detection.corrections.noise_model;
+  noise.level_counts = 6.25;
+  noise.spectrum[8 * 2 + 3] = 0.5F;
+  Image<float> nodes(2, 2);
+  fill_pixels(nodes.view(), 1.5F);
+  nodes(1, 0) = 0.75F;
+  noise.map.set_nodes(nodes, 40, 20);
   detection.unit_counts = 45.2;
   detection.kernel_px = {1.2, 2.5};
   const auto json = nlohmann::json::parse(edges_to_json(detection, ""));
   EXPECT_EQ(json["stats"]["measured"]["unit_counts"], 45.2);
+  EXPECT_EQ(json["stats"]["measured"]["level_counts"], 6.25);
+  EXPECT_EQ(json["stats"]["measured"]["level_range"], nlohmann::json({0.75, 1.5}));
+  EXPECT_EQ(json["stats"]["measured"]["spectrum"][2][3], 0.5);
   EXPECT_EQ(json["stats"]["measured"]["kernel_px"], nlohmann::json({1.2, 2.5}));
 }
 

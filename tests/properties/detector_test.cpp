@@ -428,21 +428,5 @@ TEST(Detector, EachHasItsOwnInstructionSet) {
   EXPECT_FALSE(Detector::create(options));
 }
 
-TEST(Detector, SaysWhereFalseAlarmsWereNotMeasured) {
-  const auto frame = small_desk(20);
-  DetectorOptions options;
-  EXPECT_EQ(detector(options).detect(frame.counts)->no_false_alarm_model, "");
-  options.denoise.sigma_counts = 25;
-  EXPECT_EQ(detector(options).detect(frame.counts)->no_false_alarm_model, "");
-  options.denoise.method = DenoiseMethod::kNlm;
-  const Detection found = *detector(options).detect(frame.counts);
-  EXPECT_EQ(found.no_false_alarm_model, "not measured with these options of denoise");
-  ASSERT_FALSE(found.edges.edges.empty());
-  for (const Edge& edge : found.edges.edges) {
-    EXPECT_TRUE(std::isnan(edge.log10_nfa));
-    EXPECT_NE(edge.status, EdgeStatus::kInsignificant);
-  }
-}
-
 }  // namespace
 }  // namespace thermedge

@@ -1,5 +1,4 @@
 #include "thermedge/stages/contrast.hpp"
-#include "thermedge/stages/significance.hpp"
 
 #include <gtest/gtest.h>
 
@@ -204,88 +203,6 @@ TEST(Measure, OfAFrameWithoutNoiseIsCertain) {
   EXPECT_NEAR(set.edgels.position_sigma_px[0], 1 / std::sqrt(12.0), 1e-6);
   EXPECT_EQ(set.edges[1].z, 0);
   EXPECT_TRUE(std::isfinite(set.edges[1].log10_nfa));
-}
-
-// Directions of edges along a column with the warmer side on the right: the edge runs at 270
-// degrees, 90 degrees before the normal.
-Image<std::int32_t> upright_directions(int width, int height) {
-  Image<std::int32_t> direction(width, height);
-  fill_pixels(direction.view(), 18);
-  return direction;
-}
-
-Edge proven(const Image<std::uint16_t>& frame, double sigma, double score,
-            double stripe_sigmas = 0) {
-  EdgeSet set;
-  add_edge(set, vertical_line(30, 5, 75)).score = score;
-  test_significance(frame, sigma, upright_directions(frame.width(), frame.height()),
-                    {.stripe_sigmas = stripe_sigmas, .model = FalseAlarmModel{}}, set);
-  return set.edges[0];
-}
-
-TEST(Proof, IsTheContrastAndAsMuchOfTheScoreAsCanBeTrusted) {
-  const auto frame = step_frame(60, 80, 3, 0.5, 5, [](int x, int) { return x - 30.0; });
-  const Edge plain = proven(frame, 5, 0);
-  ASSERT_GT(plain.z, 1);
-  ASSERT_LT(plain.z, 8);
-  const double candidates = 60 * 80 / 55000.0;
-  const double tail = 0.5 * std::erfc((plain.z - 1.3) / 1.3 / std::numbers::sqrt2);
-  EXPECT_NEAR(plain.log10_nfa, std::log10(candidates * tail), 1e-9);
-  EXPECT_LT(proven(frame, 5, 0.4).log10_nfa, plain.log10_nfa);
-  EXPECT_GT(proven(frame, 5, -0.4).log10_nfa, plain.log10_nfa);
-  EXPECT_EQ(proven(frame, 5, 0.5).log10_nfa, proven(frame, 5, 3).log10_nfa);
-}
-
-TEST(Proof, ASlopeIsNoEdge) {
-  Image<std::uint16_t> slope(60, 80);
-  for (int y = 0; y < 80; ++y) {
-    for (int x = 0; x < 60; ++x) {
-      slope(x, y) = static_cast<std::uint16_t>(3000 + 4 * x);
-    }
-  }
-  const Edge edge = proven(slope, 5, 0);
-  EXPECT_NEAR(edge.contrast_counts, 4 * 6, 1e-9);
-  EXPECT_NEAR(edge.z, 0, 1e-9);
-}
-
-TEST(Proof, TuningSaysHowFarOutContrastIsTaken) {
-  Image<std::uint16_t> slope(60, 80);
-  for (int y = 0; y < 80; ++y) {
-    for (int x = 0; x < 60; ++x) {
-      slope(x, y) = static_cast<std::uint16_t>(3000 + 4 * x);
-    }
-  }
-  EdgeSet set;
-  add_edge(set, vertical_line(30, 5, 75));
-  test_significance(slope, 5, upright_directions(60, 80), {}, set,
-                    {.contrast = {.nearest_px = 2.5, .farthest_px = 3.5}});
-  EXPECT_NEAR(set.edges[0].contrast_counts, 4 * 6, 1e-9);
-  test_significance(slope, 5, upright_directions(60, 80), {}, set,
-                    {.contrast = {.nearest_px = 2.5, .farthest_px = 4.5}});
-  EXPECT_NEAR(set.edges[0].contrast_counts, 4 * 7, 1e-9);
-}
-
-TEST(Proof, StripesMayHaveMadeAnEdgeAlongAnAxis) {
-  const auto frame = step_frame(60, 80, 50, 0.5, 5, [](int x, int) { return x - 30.0; });
-  const double samples = 4 * 70;
-  const double without = std::sqrt(2 / samples);
-  const double with = std::sqrt(2 / samples + 0.2 * 0.2);
-  EXPECT_NEAR(proven(frame, 5, 0, 0.2).z, proven(frame, 5, 0).z * without / with, 1e-9);
-}
-
-TEST(Proof, WithoutAModelThereIsNoNumberOfFalseAlarms) {
-  EdgeSet set;
-  add_edge(set, vertical_line(30, 5, 75));
-  const auto frame = step_frame(60, 80, 50, 0.5, 5, [](int x, int) { return x - 30.0; });
-  test_significance(frame, 5, upright_directions(60, 80), {}, set);
-  EXPECT_TRUE(std::isnan(set.edges[0].log10_nfa));
-  EXPECT_GT(set.edges[0].z, 1);
-}
-
-TEST(Proof, WithoutNoiseEveryContrastIsCertain) {
-  const auto frame = step_frame(60, 80, 50, 0.5, 0, [](int x, int) { return x - 30.0; });
-  EXPECT_EQ(proven(frame, 0, 0).z, std::numeric_limits<double>::infinity());
-  EXPECT_EQ(proven(frame, 0, 0).log10_nfa, -std::numeric_limits<double>::infinity());
 }
 
 TEST(Measure, LeavesOutWhatLiesOutsideTheFrame) {

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "thermedge/image.hpp"
+#include "thermedge/noise_model.hpp"
 #include "thermedge/option_list.hpp"
 #include "thermedge/parallel_runner.hpp"
 #include "thermedge/result.hpp"
@@ -57,6 +58,9 @@ struct Bm3dOptions {
   // Whether a block displaced by one pixel may join a group: keeps 0.05 dB more detail, and ripple
   // that looks like edges.
   bool adjacent_blocks = true;
+  // Whether the coarsest slopes of a group's mean escape the hard threshold: gentle slopes of the
+  // scene do not become terraces, which look like edges, and flat areas keep more noise.
+  bool keep_slopes = false;
 };
 
 template <OptionsOf<Bm3dOptions> O, class V>
@@ -67,6 +71,8 @@ void visit_options(O& o, V&& v) {
   v("wiener", o.wiener, Bounds{0, 1}, "run the second stage");
   v("adjacent_blocks", o.adjacent_blocks, Bounds{0, 1},
     "blocks displaced by one pixel may join a group: more detail, and more ripple");
+  v("keep_slopes", o.keep_slopes, Bounds{0, 1},
+    "gentle slopes escape the hard threshold: no terraces, and more noise in flat areas");
 }
 
 // A bilateral filter after the method, far weaker than the noise: it evens out the ripple that
@@ -169,12 +175,18 @@ class Denoiser {
   [[nodiscard]] Status run(ImageView<const float> in, double sigma, ImageView<float> out,
                            ParallelRunner& runner);
 
-  // The same for the `sigma` that NoiseEstimator measured: where it found none, which it says with
-  // 0, there is nothing to remove and the frame is copied. `burden`, 0 to 1, says how much
+  // The same for noise as it was measured, in the units of `in`: where there is none, which a level
+  // of 0 says, there is nothing to remove and the frame is copied. BM3D is told the spectrum, and
+  // all methods see the frame with the noise evened out by its map. `burden`, 0 to 1, says how much
   // of one the noise is: so large a share of options.bilateral.range_sigmas and of the Gaussian's
   // standard deviation is applied.
+  [[nodiscard]] Status run_measured(ImageView<const float> in, const NoiseModel& noise,
+                                    ImageView<float> out, ParallelRunner& runner,
+                                    double burden = 1);
+
+  // White noise of `sigma`, 0 where none was measured.
   [[nodiscard]] Status run_measured(ImageView<const float> in, double sigma, ImageView<float> out,
-                                    ParallelRunner& runner, double burden = 1);
+                                    ParallelRunner& runner);
 
   // Memory held, bytes.
   [[nodiscard]] std::size_t memory_bytes() const;

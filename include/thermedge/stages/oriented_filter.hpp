@@ -18,11 +18,10 @@ struct OrientedFilterOptions {
   double along_px = 2.5;         // and along it, from across_px to 4, in strong noise;
   double clean_across_px = 0.8;  // and the same in next to none
   double clean_along_px = 1.0;
-  double low = 0.1;           // hysteresis, in units of the noise before denoising, > 0
-  double high = 0.2;          // from `low` up
-  double noise_floor = 0.08;  // least noise assumed, of the frame's range (p99.9 - p0.1), 0..0.1
-  double fine_px = 0.8;       // standard deviation of the fine derivative, 0.5..2; 0: none
-  double fine_above = 1;      // the response of the fine one from which it decides, > 0
+  double low = 0.1;       // hysteresis, in units of the noise before denoising, > 0
+  double high = 0.2;      // from `low` up
+  double fine_px = 0.8;   // standard deviation of the fine derivative, 0.5..2; 0: none
+  double fine_above = 1;  // the response of the fine one from which it decides, > 0
 
   // Fails with one line that names the option: out of its range, or at odds with another one.
   [[nodiscard]] Status check() const;
@@ -39,9 +38,6 @@ void visit_options(O& o, V&& v) {
   v("along_px", o.along_px, Bounds{0.5, 4}, "standard deviation of the kernels along the edge, px");
   v("low", o.low, Bounds{1e-6, 1000}, "low threshold of the hysteresis, in units of the noise");
   v("high", o.high, Bounds{1e-6, 1000}, "high threshold of the hysteresis, in units of the noise");
-  v("noise_floor", o.noise_floor, Bounds{0, 0.1},
-    "least noise assumed, as a share of the frame's range; frames with less than half of it are "
-    "clean");
   v("fine_px", o.fine_px, Bounds{0, 2}, "standard deviation of the fine derivative, px (0: none)");
   v("fine_above", o.fine_above, Bounds{1e-6, 1000},
     "response of the fine derivative from which it decides, in units of the noise");
@@ -62,8 +58,16 @@ struct OrientedFilterTuning {
   std::array<int, kSides> side_distances_px = {4, 8};
   double far_sides_from = 0.5;  // least noisiness (0..1) with the farther pair: denoisers blur
                                 // faint edges, but two clean edges 8 px apart suppress each other
-  int kernel_steps = 8;         // sizes between the clean kernels and those for noise: memory
-                                // against evenness over the noise
+  // Least suppressed response as a share of the response itself: slopes have next to none, knees at
+  // the end of a slope half of it. Measured: "sharpness".
+  double least_sharpness = 0.4;
+  // What a strong edge leaves around it (ripple of the denoiser, halo of the optics) is in
+  // proportion to it: a suppressed response is taken for over / sqrt(1 + (share m)^2), where m is
+  // the largest response up to so many px away in both directions. Measured: "ceiling".
+  double ripple_share = 0.04;
+  int ripple_reach_px = 10;
+  int kernel_steps = 8;  // sizes between the clean kernels and those for noise: memory
+                         // against evenness over the noise
   // Where kernels are cut off, in standard deviations: of the Gaussian across, whose tails bias the
   // derivative, and of the line along it, where shorter is faster. compensate_curvature_bias
   // (subpixel.hpp) is measured with the latter.

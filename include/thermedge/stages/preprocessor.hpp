@@ -7,16 +7,19 @@
 #include "thermedge/frame.hpp"
 #include "thermedge/image.hpp"
 #include "thermedge/memory.hpp"
+#include "thermedge/noise_model.hpp"
 #include "thermedge/parallel_runner.hpp"
 #include "thermedge/stages/bad_pixels.hpp"
 #include "thermedge/stages/noise.hpp"
+#include "thermedge/stages/noise_model_estimator.hpp"
 #include "thermedge/stages/stripes.hpp"
 
 namespace thermedge {
 
 // What was found about a frame on the way to its corrected counts.
 struct Corrections {
-  NoiseEstimate noise;
+  NoiseEstimate noise;     // of the pixels, by a high-pass, and of stripes
+  NoiseModel noise_model;  // at the scale of edges; of the pixels where it was not asked for
   std::vector<BadPixel> bad_pixels;  // that were replaced
   StripeOffsets stripes;             // that were removed; empty where they were left alone
   // count = (value - offset) * counts_per_unit, of a float frame; 1 and 0 of others.
@@ -36,8 +39,9 @@ struct Corrections {
 // target.
 class Preprocessor {
  public:
-  Preprocessor(const BadPixelOptions& bad_pixels, const StripeOptions& stripes)
-      : bad_pixel_options_(bad_pixels), stripe_options_(stripes) {}
+  // `model_noise`: measure the whole noise model, not the noise of the pixels alone.
+  Preprocessor(const BadPixelOptions& bad_pixels, const StripeOptions& stripes, bool model_noise)
+      : bad_pixel_options_(bad_pixels), stripe_options_(stripes), model_noise_(model_noise) {}
 
   // The corrected counts, valid until the next run. `frame` is not empty.
   ImageView<const std::uint16_t> run(const Frame& frame, ParallelRunner& runner,
@@ -48,10 +52,12 @@ class Preprocessor {
 
   // Memory held, bytes.
   [[nodiscard]] std::size_t memory_bytes() const {
-    return detail::memory_of(noise_estimator_, stripe_finder_, corrected_, valid_, sample_);
+    return detail::memory_of(noise_estimator_, model_estimator_, stripe_finder_, corrected_, valid_,
+                             sample_);
   }
 
  private:
+  void measure_model(Corrections& corrections);
   void load(const Frame& frame, Corrections& corrections);
   void load_values(ImageView<const float> values, Corrections& corrections);
   void choose_scale(ImageView<const float> values, Corrections& corrections);
@@ -60,7 +66,9 @@ class Preprocessor {
 
   BadPixelOptions bad_pixel_options_;
   StripeOptions stripe_options_;
+  bool model_noise_;
   NoiseEstimator noise_estimator_;
+  NoiseModelEstimator model_estimator_;
   StripeFinder stripe_finder_;
   Image<std::uint16_t> corrected_;
   Image<std::uint8_t> valid_;

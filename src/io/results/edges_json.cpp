@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -48,6 +49,31 @@ struct StatusCounts {
   std::size_t weak = 0, insignificant = 0, beyond_budget = 0;
 };
 
+// Of the nodes of the map: the least and the greatest; 1 and 1 where the noise is even.
+Json range_of(const NoiseLevelMap& map) {
+  const ImageView<const float> nodes = map.nodes();
+  float least = 1;
+  float greatest = 1;
+  for (int y = 0; y < nodes.height(); ++y) {
+    const auto [low, high] = std::minmax_element(nodes.row(y), nodes.row(y) + nodes.width());
+    least = y == 0 ? *low : std::min(least, *low);
+    greatest = y == 0 ? *high : std::max(greatest, *high);
+  }
+  return {rounded(least), rounded(greatest)};
+}
+
+Json to_json(const NoiseSpectrum& spectrum) {
+  Json rows = Json::array();
+  for (std::size_t v = 0; v < kNoiseBlockPx; ++v) {
+    Json row = Json::array();
+    for (std::size_t u = 0; u < kNoiseBlockPx; ++u) {
+      row.push_back(rounded(spectrum[v * kNoiseBlockPx + u]));
+    }
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
 // Figures that were measured on the frame, and the choices that follow from them.
 Json measured(const Detection& detection) {
   const NoiseEstimate& noise = detection.corrections.noise;
@@ -55,11 +81,11 @@ Json measured(const Detection& detection) {
                {"column_sigma_counts", rounded(noise.column_sigma_counts)},
                {"row_sigma_counts", rounded(noise.row_sigma_counts)}};
   if (detection.unit_counts > 0) {
-    json["range_counts"] = rounded(detection.range_counts);
+    const NoiseModel& model = detection.corrections.noise_model;
+    json["level_counts"] = rounded(model.level_counts);
+    json["level_range"] = range_of(model.map);
+    json["spectrum"] = to_json(model.spectrum);
     json["unit_counts"] = rounded(detection.unit_counts);
-    json["false_alarm_model"] = detection.no_false_alarm_model.empty()
-                                    ? std::string_view("measured")
-                                    : detection.no_false_alarm_model;
     json["kernel_px"] = {rounded(detection.kernel_px.across_px),
                          rounded(detection.kernel_px.along_px)};
   }
