@@ -22,10 +22,12 @@ bool is_count(float value) {
 ImageView<const std::uint16_t> Preprocessor::run(const Frame& frame, ParallelRunner& runner,
                                                  Corrections& corrections) {
   corrected_.resize(frame.width(), frame.height());
+  valid_.resize(frame.width(), frame.height());
+  hole_filler_.prepare(frame.width(), frame.height());
   note_validity(frame);
   load(frame, corrections);
   if (!valid_view_.empty()) {
-    fill_invalid();
+    hole_filler_.fill(corrected_, valid_view_);
   }
   corrections.noise = noise_estimator_.measure(corrected_);
   corrections.bad_pixels.clear();
@@ -107,7 +109,6 @@ void Preprocessor::note_validity(const Frame& frame) {
   if (values == nullptr && frame.valid.empty()) {
     return;
   }
-  valid_.resize(frame.width(), frame.height());
   bool all_valid = true;
   for (int y = 0; y < frame.height(); ++y) {
     for (int x = 0; x < frame.width(); ++x) {
@@ -119,42 +120,6 @@ void Preprocessor::note_validity(const Frame& frame) {
   }
   if (!all_valid) {
     valid_view_ = valid_;
-  }
-}
-
-// By the nearest valid pixel of the row, the left one of two as near; a row without any takes the
-// row before it, or, at the top, the first one that has some.
-void Preprocessor::fill_invalid() {
-  int last_filled = -1;
-  for (int y = 0; y < corrected_.height(); ++y) {
-    const std::uint8_t* valid = valid_view_.row(y);
-    std::uint16_t* counts = corrected_.row(y);
-    const int width = corrected_.width();
-    if (std::none_of(valid, valid + width, [](std::uint8_t v) { return v != 0; })) {
-      if (last_filled >= 0) {
-        std::copy_n(corrected_.row(last_filled), width, counts);
-        last_filled = y;
-      }
-      continue;
-    }
-    int left = -1;
-    for (int x = 0; x < width; ++x) {
-      if (valid[x] != 0) {
-        left = x;
-        continue;
-      }
-      const auto* next =
-          std::find_if(valid + x, valid + width, [](std::uint8_t v) { return v != 0; });
-      const int right = static_cast<int>(next - valid);
-      const bool take_left = left >= 0 && (right >= width || x - left <= right - x);
-      counts[x] = counts[take_left ? left : right];
-    }
-    if (last_filled < 0) {
-      for (int above = 0; above < y; ++above) {
-        std::copy_n(counts, width, corrected_.row(above));
-      }
-    }
-    last_filled = y;
   }
 }
 

@@ -9,6 +9,7 @@
 #include "thermedge/memory.hpp"
 #include "thermedge/parallel_runner.hpp"
 #include "thermedge/stages/bad_pixels.hpp"
+#include "thermedge/stages/hole_filling.hpp"
 #include "thermedge/stages/noise.hpp"
 #include "thermedge/stages/stripes.hpp"
 
@@ -24,8 +25,8 @@ struct Corrections {
   double offset = 0;
 };
 
-// Frame -> corrected counts: float values become counts, pixels that are no measurement take the
-// value of a neighbour, noise is measured, bad pixels are replaced, stripes removed.
+// Frame -> corrected counts: float values become counts, pixels that are no measurement are filled
+// smoothly (HoleFiller), noise is measured, bad pixels are replaced, stripes removed.
 //
 // Float frames whose pixels are whole numbers from 0 to 65535 are counts already. In others the
 // 0.1st to 99.9th percentile is spread over 8192 to 16384 counts by a power of two, with room for
@@ -48,7 +49,8 @@ class Preprocessor {
 
   // Memory held, bytes.
   [[nodiscard]] std::size_t memory_bytes() const {
-    return detail::memory_of(noise_estimator_, stripe_finder_, corrected_, valid_, sample_);
+    return detail::memory_of(noise_estimator_, stripe_finder_, hole_filler_, corrected_, valid_,
+                             sample_);
   }
 
  private:
@@ -56,12 +58,12 @@ class Preprocessor {
   void load_values(ImageView<const float> values, Corrections& corrections);
   void choose_scale(ImageView<const float> values, Corrections& corrections);
   void note_validity(const Frame& frame);
-  void fill_invalid();
 
   BadPixelOptions bad_pixel_options_;
   StripeOptions stripe_options_;
   NoiseEstimator noise_estimator_;
   StripeFinder stripe_finder_;
+  HoleFiller hole_filler_;
   Image<std::uint16_t> corrected_;
   Image<std::uint8_t> valid_;
   ImageView<const std::uint8_t> valid_view_;
