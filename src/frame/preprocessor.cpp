@@ -24,11 +24,10 @@ ImageView<const std::uint16_t> Preprocessor::run(const Frame& frame, ParallelRun
   corrected_.resize(frame.width(), frame.height());
   valid_.resize(frame.width(), frame.height());
   hole_filler_.prepare(frame.width(), frame.height());
-  note_validity(frame);
+  invalid_finder_.prepare(frame.width(), frame.height());
   load(frame, corrections);
-  if (!valid_view_.empty()) {
-    hole_filler_.fill(corrected_, valid_view_);
-  }
+  note_validity(frame, corrections.invalid);
+  fill_invalid(corrections.invalid);
   corrections.noise = noise_estimator_.measure(corrected_);
   corrections.bad_pixels.clear();
   corrections.stripes.columns.clear();
@@ -103,24 +102,52 @@ void Preprocessor::choose_scale(ImageView<const float> values, Corrections& corr
   corrections.offset = (low + high) / 2 - kMiddleCounts / corrections.counts_per_unit;
 }
 
-void Preprocessor::note_validity(const Frame& frame) {
+void Preprocessor::note_validity(const Frame& frame, InvalidPixels& invalid) {
   const auto* values = std::get_if<ImageView<const float>>(&frame.pixels);
-  valid_view_ = {};
-  if (values == nullptr && frame.valid.empty()) {
-    return;
-  }
-  bool all_valid = true;
+  invalid = {};
   for (int y = 0; y < frame.height(); ++y) {
-    for (int x = 0; x < frame.width(); ++x) {
-      const bool valid = (frame.valid.empty() || frame.valid(x, y) != 0) &&
-                         (values == nullptr || std::isfinite((*values)(x, y)));
-      valid_(x, y) = valid ? 1 : 0;
-      all_valid = all_valid && valid;
+    std::uint8_t* valid = valid_.row(y);
+    if (frame.valid.empty()) {
+      std::fill_n(valid, frame.width(), std::uint8_t{1});
+    } else {
+      std::transform(frame.valid.row(y), frame.valid.row(y) + frame.width(), valid,
+                     [](std::uint8_t given) { return given != 0 ? std::uint8_t{1} : given; });
+    }
+    if (values != nullptr) {
+      for (int x = 0; x < frame.width(); ++x) {
+        valid[x] = std::isfinite((*values)(x, y)) ? valid[x] : std::uint8_t{0};
+      }
     }
   }
-  if (!all_valid) {
+  if (!frame.valid.empty() || values != nullptr) {
+    invalid.given = count_invalid();
+  }
+}
+
+// Pixels that were given are filled first: whatever they hold, nothing is to be found there.
+void Preprocessor::fill_invalid(InvalidPixels& invalid) {
+  if (invalid.given > 0) {
+    hole_filler_.fill(corrected_, valid_);
+  }
+  if (validity_options_.find) {
+    invalid_finder_.run(corrected_, valid_, invalid);
+    invalid.found = count_invalid() - invalid.given;
+    if (invalid.found > 0) {
+      hole_filler_.fill(corrected_, valid_);
+    }
+  }
+  valid_view_ = {};
+  if (invalid.given + invalid.found > 0) {
     valid_view_ = valid_;
   }
+}
+
+std::int64_t Preprocessor::count_invalid() const {
+  std::int64_t number = 0;
+  for (int y = 0; y < valid_.height(); ++y) {
+    number += std::count(valid_.row(y), valid_.row(y) + valid_.width(), std::uint8_t{0});
+  }
+  return number;
 }
 
 }  // namespace thermedge

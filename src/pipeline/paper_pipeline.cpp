@@ -54,7 +54,7 @@ PaperPipeline::PaperPipeline(const DetectorOptions& options, const PaperOptions&
       grey_scale_(own.grey_scale),
       linking_(own.linking),
       corner_options_(own.corners),
-      preprocessor_(options.bad_pixels, options.stripes),
+      preprocessor_(options.bad_pixels, options.stripes, options.validity),
       denoiser_(options.denoise),
       canny_(own.canny),
       tracer_(own.contours),

@@ -61,7 +61,7 @@ RobustPipeline::RobustPipeline(const DetectorOptions& options, const RobustOptio
     : options_(options),
       filter_options_(own.oriented_filter),
       false_alarms_(look_up_false_alarms(options.denoise, own.oriented_filter)),
-      preprocessor_(options.bad_pixels, options.stripes),
+      preprocessor_(options.bad_pixels, options.stripes, options.validity),
       denoiser_(options.denoise),
       filter_(own.oriented_filter),
       graph_(own.graph),

@@ -12,11 +12,13 @@
 #include "thermedge/stages/hole_filling.hpp"
 #include "thermedge/stages/noise.hpp"
 #include "thermedge/stages/stripes.hpp"
+#include "thermedge/stages/validity.hpp"
 
 namespace thermedge {
 
 // What was found about a frame on the way to its corrected counts.
 struct Corrections {
+  InvalidPixels invalid;
   NoiseEstimate noise;
   std::vector<BadPixel> bad_pixels;  // that were replaced
   StripeOffsets stripes;             // that were removed; empty where they were left alone
@@ -25,8 +27,9 @@ struct Corrections {
   double offset = 0;
 };
 
-// Frame -> corrected counts: float values become counts, pixels that are no measurement are filled
-// smoothly (HoleFiller), noise is measured, bad pixels are replaced, stripes removed.
+// Frame -> corrected counts: float values become counts, pixels that are no measurement, given or
+// found (InvalidFinder), are filled smoothly (HoleFiller), noise is measured, bad pixels are
+// replaced, stripes removed.
 //
 // Float frames whose pixels are whole numbers from 0 to 65535 are counts already. In others the
 // 0.1st to 99.9th percentile is spread over 8192 to 16384 counts by a power of two, with room for
@@ -37,8 +40,9 @@ struct Corrections {
 // target.
 class Preprocessor {
  public:
-  Preprocessor(const BadPixelOptions& bad_pixels, const StripeOptions& stripes)
-      : bad_pixel_options_(bad_pixels), stripe_options_(stripes) {}
+  Preprocessor(const BadPixelOptions& bad_pixels, const StripeOptions& stripes,
+               const ValidityOptions& validity = {})
+      : bad_pixel_options_(bad_pixels), stripe_options_(stripes), validity_options_(validity) {}
 
   // The corrected counts, valid until the next run. `frame` is not empty.
   ImageView<const std::uint16_t> run(const Frame& frame, ParallelRunner& runner,
@@ -49,18 +53,22 @@ class Preprocessor {
 
   // Memory held, bytes.
   [[nodiscard]] std::size_t memory_bytes() const {
-    return detail::memory_of(noise_estimator_, stripe_finder_, hole_filler_, corrected_, valid_,
-                             sample_);
+    return detail::memory_of(noise_estimator_, stripe_finder_, invalid_finder_, hole_filler_,
+                             corrected_, valid_, sample_);
   }
 
  private:
   void load(const Frame& frame, Corrections& corrections);
   void load_values(ImageView<const float> values, Corrections& corrections);
   void choose_scale(ImageView<const float> values, Corrections& corrections);
-  void note_validity(const Frame& frame);
+  void note_validity(const Frame& frame, InvalidPixels& invalid);
+  void fill_invalid(InvalidPixels& invalid);
+  [[nodiscard]] std::int64_t count_invalid() const;
 
   BadPixelOptions bad_pixel_options_;
   StripeOptions stripe_options_;
+  ValidityOptions validity_options_;
+  InvalidFinder invalid_finder_;
   NoiseEstimator noise_estimator_;
   StripeFinder stripe_finder_;
   HoleFiller hole_filler_;
