@@ -62,7 +62,7 @@ class RobustPipeline final : public Pipeline {
 
   [[nodiscard]] std::size_t memory_bytes() const override {
     return memory_of(preprocessor_, denoiser_, filter_, graph_, gap_closer_, corner_finder_,
-                     scorer_, selector_, budgets_, sample_, denoised_, masked_,
+                     scorer_, selector_, budgets_, sample_, denoised_, clear_, masked_,
                      traced_.contours.points, traced_.contours.items, eligible_,
                      linked_.contours.points, linked_.contours.items, linked_.links,
                      corners_.indices, corners_.ranges);
@@ -73,6 +73,7 @@ class RobustPipeline final : public Pipeline {
   [[nodiscard]] double measure_range();
   Status denoise(ParallelRunner& runner, Detection& found);
   Status find_edge_pixels(ParallelRunner& runner, Detection& found);
+  [[nodiscard]] ImageView<const std::uint8_t> find_clear();
   Status close_gaps();
   void test_edges(Detection& found);
   Status select(Detection& found);
@@ -97,9 +98,10 @@ class RobustPipeline final : public Pipeline {
   std::vector<std::uint16_t> sample_;
   Image<float> denoised_;        // counts
   OrientedFilterResult pixels_;  // views of what filter_ holds
-  Image<std::uint8_t> masked_;
-  LinkedContours traced_;               // by the graph
-  std::vector<std::uint8_t> eligible_;  // of its contours: whose gaps are closed
+  Image<std::uint8_t> clear_, masked_;
+  ImageView<const std::uint8_t> clear_view_;  // of clear_; empty where edges can be everywhere
+  LinkedContours traced_;                     // by the graph
+  std::vector<std::uint8_t> eligible_;        // of its contours: whose gaps are closed
   LinkedContours linked_;
   CornerSet corners_;
 };
