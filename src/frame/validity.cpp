@@ -100,6 +100,7 @@ void InvalidFinder::run(ImageView<std::uint16_t> counts, ImageView<std::uint8_t>
   find_dead_lines(columns, column_runs_);
   invalid.dead_rows = replace(rows, row_runs_, valid);
   invalid.dead_columns = replace(columns, column_runs_, valid);
+  replace_crossings(counts);
   find_border_lines(rows, valid);
   find_border_lines(columns, valid);
 }
@@ -294,6 +295,25 @@ void InvalidFinder::find_border_lines(const Lines& lines, ImageView<std::uint8_t
   }
 }
 
+// Where a dead row and a dead column cross, the mean of the four pixels alive around, whichever of
+// the two was replaced first.
+void InvalidFinder::replace_crossings(ImageView<std::uint16_t> counts) const {
+  const auto crosses = [](const Run& run, int line) {
+    return run.first <= line && line <= run.last;
+  };
+  for (const Run& row : row_runs_) {
+    for (const Run& column : column_runs_) {
+      if (crosses(row, column.line) && crosses(column, row.line) &&
+          std::min(row.before, column.before) >= 0 && row.after < counts.height() &&
+          column.after < counts.width()) {
+        const int sum = counts(column.before, row.before) + counts(column.after, row.before) +
+                        counts(column.before, row.after) + counts(column.after, row.after);
+        counts(column.line, row.line) = static_cast<std::uint16_t>((sum + 2) / 4);
+      }
+    }
+  }
+}
+
 // Lines of one value each from the border on, and the line that is mixed with them. The first line
 // of the picture itself has hardly any pixel of that value.
 int InvalidFinder::bar_lines(const Lines& lines, bool from_end) const {
@@ -314,23 +334,38 @@ int InvalidFinder::bar_lines(const Lines& lines, bool from_end) const {
   return is_share(far, lines.length, tuning_.jump_share) ? number + 1 : 0;
 }
 
+// Lines that differ far from the next one, and along which neighbours differ as those of the
+// picture do not. Of the first line alone the difference tells, where it is larger than the flank
+// of a step outside would make it.
 int InvalidFinder::telemetry_lines(const Lines& lines, bool from_end) {
   if (usual_jump_counts_ == 0) {
     return 0;
   }
   const auto line = [&](int k) { return from_end ? lines.count - 1 - k : k; };
-  const auto jump = [&](int k) {  // between line k and the next one inwards
+  const auto median = [&](int number, auto&& difference) {
     sample_.clear();
-    for (int i = 0; i < lines.length; ++i) {
-      sample_.push_back(std::abs(lines.difference(line(k), line(k + 1), i)));
+    for (int i = 0; i < number; ++i) {
+      sample_.push_back(std::abs(difference(i)));
     }
     return detail::nth_value(std::span(sample_), (sample_.size() - 1) / 2);
+  };
+  const auto jump = [&](int k) {  // between line k and the next one inwards
+    return median(lines.length, [&](int i) { return lines.difference(line(k), line(k + 1), i); });
+  };
+  const auto is_strange = [&](int k) {
+    const int along = median(lines.length - 1, [&](int i) {
+      return int{lines.at(line(k), i)} - int{lines.at(line(k), i + 1)};
+    });
+    return 4 * along <= usual_jump_counts_ || along >= far_counts_;
   };
   int inner = jump(tuning_.most_telemetry_lines);
   for (int k = tuning_.most_telemetry_lines - 1; k >= 0; --k) {
     const int here = jump(k);
-    if (here > far_counts_ && here > tuning_.step_ratio * inner) {
+    if (here > far_counts_ && here > tuning_.step_ratio * inner && is_strange(k)) {
       return k + 1;
+    }
+    if (k == 0 && here > far_counts_ && here > tuning_.flank_ratio * inner) {
+      return 1;
     }
     inner = here;
   }
@@ -408,14 +443,17 @@ bool InvalidFinder::is_steep(int value, int near, int next) const {
 // A single line farther off both neighbours than these are off the next ones: by the means, which
 // hardly cost anything, and, of the lines that these leave, in nearly all pixels.
 bool InvalidFinder::is_far_off(const Lines& lines, int line) const {
-  if (usual_jump_counts_ == 0 || line < 2 || line + 2 >= lines.count) {
+  if (usual_jump_counts_ == 0 || line < 1 || line + 1 >= lines.count) {
     return false;
   }
   const auto sum = [&](int l) { return std::int64_t{lines.sums[index(l)]}; };
   const std::int64_t above = sum(line) - sum(line - 1);
   const std::int64_t below = sum(line) - sum(line + 1);
+  // Next to the border the other side alone.
+  const int before = std::max(line - 2, 0);
+  const int after = std::min(line + 2, lines.count - 1);
   const std::int64_t hill =
-      std::max(std::abs(sum(line - 1) - sum(line - 2)), std::abs(sum(line + 1) - sum(line + 2)));
+      std::max(std::abs(sum(line - 1) - sum(before)), std::abs(sum(line + 1) - sum(after)));
   const std::int64_t least =
       std::int64_t{far_counts_} * lines.length / 2 + tuning_.optics_ratio * hill;
   if (std::max(std::min(above, below), std::min(-above, -below)) < least) {
@@ -425,8 +463,8 @@ bool InvalidFinder::is_far_off(const Lines& lines, int line) const {
   for (int i = 0; i < lines.length; ++i) {
     const int up = lines.difference(line, line - 1, i);
     const int down = lines.difference(line, line + 1, i);
-    const int flank = std::max(std::abs(lines.difference(line - 1, line - 2, i)),
-                               std::abs(lines.difference(line + 1, line + 2, i)));
+    const int flank = std::max(std::abs(lines.difference(line - 1, before, i)),
+                               std::abs(lines.difference(line + 1, after, i)));
     const int height = std::max(std::min(up, down), std::min(-up, -down));
     off += height >= far_counts_ / 2 + tuning_.optics_ratio * flank ? 1 : 0;
   }

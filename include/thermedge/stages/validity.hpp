@@ -47,9 +47,12 @@ struct ValidityTuning {
   int least_jump_counts = 4;
   double jump_share = 0.75;
   // How far a line may stand out of its neighbours, in units of how far these stand out of the
-  // next ones: what optics of 0.7 px and more allow (bad_pixels.hpp), of a step at most 2.3.
+  // next ones: what optics of 0.7 px and more allow (bad_pixels.hpp). The largest difference of a
+  // step is at most 2.3 times the next one, that of the flank of a step outside of the frame 14
+  // times where it is a quarter of the step.
   int optics_ratio = 2;
   int step_ratio = 4;
+  int flank_ratio = 16;
   int most_dead_lines = 4;       // side by side: more of them are an object
   int most_telemetry_lines = 4;  // at one side
   int least_block_px = 4;        // side; smaller ones are BadPixelOptions' business
@@ -75,7 +78,8 @@ struct InvalidPixels {
 //    areas are full of holes. With them goes 1 px around, where resampling mixes both.
 //  - Bars: rows (or columns) of one value each, whichever, from the border on.
 //  - Telemetry: the first or last 1 to 4 rows (columns), where these have nothing to do with what
-//    follows, farther off than any step of the scene through optics.
+//    follows: farther off than a step of the scene through optics, and smoother or rougher along
+//    the row than the picture.
 //  - Dead blocks: rectangles of one value, 4 to 64 px a side, among pixels that differ.
 //  - Dead rows and columns, up to 4 side by side: those of one value, over half of the length or
 //    more, among lines that have none; single lines that are far off both neighbours over all of
@@ -138,6 +142,7 @@ class InvalidFinder {
   [[nodiscard]] bool is_far_off(const Lines& lines, int line) const;
   [[nodiscard]] bool is_steep(int value, int near, int next) const;
   static int replace(const Lines& lines, std::span<const Run> runs, ImageView<std::uint8_t> valid);
+  void replace_crossings(ImageView<std::uint16_t> counts) const;
   void find_border_lines(const Lines& lines, ImageView<std::uint8_t> valid);
   [[nodiscard]] int bar_lines(const Lines& lines, bool from_end) const;
   [[nodiscard]] int telemetry_lines(const Lines& lines, bool from_end);
