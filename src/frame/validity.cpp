@@ -64,6 +64,7 @@ void InvalidFinder::prepare(int width, int height) {
     return;
   }
   marks_.resize(width, height);
+  before_.resize(width, height);
   fill_pixels(marks_.view(), std::uint8_t{0});
   area_.reserve(marks_.size());
   area_rows_.resize(index(height));
@@ -98,9 +99,15 @@ void InvalidFinder::run(ImageView<std::uint16_t> counts, ImageView<std::uint8_t>
   // Of both before any is replaced, so that it does not matter which come first.
   find_dead_lines(rows, row_runs_);
   find_dead_lines(columns, column_runs_);
-  invalid.dead_rows = replace(rows, row_runs_, valid);
-  invalid.dead_columns = replace(columns, column_runs_, valid);
-  replace_crossings(counts);
+  // Twice, as what a line was first replaced by may be of a dead one that crosses it.
+  for (int round = 0; round < 2 && row_runs_.size() + column_runs_.size() > 0; ++round) {
+    copy_pixels(ImageView<const std::uint16_t>(counts), before_.view());
+    const Lines old_rows{before_, false, height, width, row_sums_, row_equals_};
+    const Lines old_columns{before_, true, width, height, column_sums_, column_equals_};
+    invalid.dead_rows = replace(rows, old_rows, row_runs_, valid);
+    invalid.dead_columns = replace(columns, old_columns, column_runs_, valid);
+    replace_crossings(counts);
+  }
   find_border_lines(rows, valid);
   find_border_lines(columns, valid);
 }
@@ -473,7 +480,7 @@ bool InvalidFinder::is_far_off(const Lines& lines, int line) const {
 
 // Between the lines alive on either side; at the border the line is a hole. Returns how many were
 // replaced.
-int InvalidFinder::replace(const Lines& lines, std::span<const Run> runs,
+int InvalidFinder::replace(const Lines& lines, const Lines& old, std::span<const Run> runs,
                            ImageView<std::uint8_t> valid) {
   int replaced = 0;
   for (const Run& run : runs) {
@@ -486,7 +493,7 @@ int InvalidFinder::replace(const Lines& lines, std::span<const Run> runs,
     const int from_before = run.line - run.before;
     for (int i = run.first; i <= run.last; ++i) {
       const int sum =
-          (span - from_before) * lines.at(run.before, i) + from_before * lines.at(run.after, i);
+          (span - from_before) * old.at(run.before, i) + from_before * old.at(run.after, i);
       lines.at(run.line, i) = static_cast<std::uint16_t>((sum + span / 2) / span);
     }
   }

@@ -109,8 +109,8 @@ class InvalidFinder {
 
   // Memory held, bytes.
   [[nodiscard]] std::size_t memory_bytes() const {
-    return detail::memory_of(area_, marks_, area_rows_, area_columns_, row_sums_, column_sums_,
-                             row_equals_, column_equals_, sample_, blocks_, row_runs_,
+    return detail::memory_of(before_, area_, marks_, area_rows_, area_columns_, row_sums_,
+                             column_sums_, row_equals_, column_equals_, sample_, blocks_, row_runs_,
                              column_runs_);
   }
 
@@ -141,7 +141,8 @@ class InvalidFinder {
   void add_constant_run(const Lines& lines, Run run, std::vector<Run>& runs) const;
   [[nodiscard]] bool is_far_off(const Lines& lines, int line) const;
   [[nodiscard]] bool is_steep(int value, int near, int next) const;
-  static int replace(const Lines& lines, std::span<const Run> runs, ImageView<std::uint8_t> valid);
+  static int replace(const Lines& lines, const Lines& old, std::span<const Run> runs,
+                     ImageView<std::uint8_t> valid);
   void replace_crossings(ImageView<std::uint16_t> counts) const;
   void find_border_lines(const Lines& lines, ImageView<std::uint8_t> valid);
   [[nodiscard]] int bar_lines(const Lines& lines, bool from_end) const;
@@ -160,6 +161,7 @@ class InvalidFinder {
   std::vector<int> sample_;
   std::vector<Block> blocks_;
   std::vector<Run> row_runs_, column_runs_;
+  Image<std::uint16_t> before_;  // lines were replaced
 };
 
 }  // namespace thermedge
