@@ -23,7 +23,7 @@ constexpr int kEmptyFrames = 40;        // that peers are set on
 
 // Without dead pixels and stripes, as our presets remove them: peers would find those first.
 Image<std::uint16_t> corrected(ImageView<const std::uint16_t> counts) {
-  Preprocessor preprocessor({}, {.remove = true}, true);
+  Preprocessor preprocessor({}, {.remove = true}, {}, true);
   Corrections corrections;
   const auto view = preprocessor.run(counts, *make_runner(1), corrections);
   Image<std::uint16_t> copy(view.width(), view.height());

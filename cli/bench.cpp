@@ -60,7 +60,12 @@ struct BenchCommand : DetectorCommand {
 std::vector<io::SourceFrame> BenchCommand::read(const io::SourceOptions& source,
                                                 Console& report) const {
   std::vector<io::SourceFrame> frames;
-  const auto input = open_inputs(common.inputs, source);
+  const auto opened = open_inputs(common.inputs, source, common.validity);
+  if (!opened) {
+    report.error(opened.error().message);
+    return frames;
+  }
+  const auto& input = *opened;
   while (frames.size() < static_cast<std::size_t>(most_frames)) {
     io::SourceFrame frame;
     const auto more = input->next(frame);
@@ -187,6 +192,7 @@ void add_bench(CLI::App& program, int& exit_code) {
   auto command = std::make_shared<BenchCommand>();
   command->add_to(app);
   command->add_denoising_to(app);
+  command->common.add_validity_to(app);
   app.add_option("--frames", command->most_frames, "frames read into memory, at most")
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();

@@ -74,6 +74,17 @@ void CommonOptions::add_to(CLI::App& app) {
   RunOptions::add_to(app);
 }
 
+void CommonOptions::add_validity_to(CLI::App& app) {
+  app.add_option("--mask", validity.mask,
+                 "8-bit picture of the frames' size, 0 where a pixel is no measurement");
+  app.add_option("--invalid", validity.counts,
+                 "count that means no measurement, 0..65535; may be repeated")
+      ->expected(1)
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->type_name("COUNT");
+}
+
 Result<io::SourceOptions> CommonOptions::prepare() const {
   if (inputs.empty()) {
     return failure(ErrorCode::kInvalidArgument,
@@ -136,7 +147,11 @@ Result<double> parse_sigma(const std::string& text) {
 
 int for_each_frame(const CommonOptions& common, const io::SourceOptions& source, Console& report,
                    const std::function<Status(const io::SourceFrame&)>& handle) {
-  const auto frames = open_inputs(common.inputs, source);
+  const auto opened = open_inputs(common.inputs, source, common.validity);
+  if (!opened) {
+    return report.fail(opened.error());
+  }
+  const auto& frames = *opened;
   io::SourceFrame frame;
   for (std::size_t done = 1;; ++done) {
     const auto more = frames->next(frame);

@@ -36,6 +36,14 @@ struct RunOptions {
   [[nodiscard]] Console report() const { return {quiet, json_log}; }
 };
 
+// --mask, --invalid: which pixels of the frames are no measurement.
+struct ValidityInput {
+  std::string mask;                   // file
+  std::vector<std::uint16_t> counts;  // that mean no measurement
+
+  [[nodiscard]] bool empty() const { return mask.empty() && counts.empty(); }
+};
+
 // INPUT..., -o, --raw-size, --raw-format, --simd, and those above.
 struct CommonOptions : RunOptions {
   std::vector<std::string> inputs;
@@ -43,8 +51,11 @@ struct CommonOptions : RunOptions {
   std::string raw_size;
   std::string raw_format = "gray16le";
   std::string simd = "auto";
+  ValidityInput validity;
 
   void add_to(CLI::App& app);
+  // --mask and --invalid, of commands that measure on frames.
+  void add_validity_to(CLI::App& app);
   // Checks what the parser can't. Failures are usage errors.
   [[nodiscard]] Result<io::SourceOptions> prepare() const;
 };

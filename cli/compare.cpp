@@ -95,7 +95,8 @@ int CompareCommand::draw() const {
     }
     return for_each_frame(common, source, report, [&](const io::SourceFrame& frame) {
       return output->begin_frame(frame.stem)
-          .and_then([&] { return sheet->draw(frame.counts, frame.bits, frame.source); })
+          .and_then(
+              [&] { return sheet->draw(frame.counts, frame.bits, frame.source, frame.valid); })
           .and_then([&](const figures::Comparison& made) { return write(made, *wanted, *output); });
     });
   });
@@ -108,6 +109,7 @@ void add_compare(CLI::App& program, int& exit_code) {
       "compare", "Prewitt, Roberts, Sobel, LoG, Canny and thermedge on one sheet");
   auto command = std::make_shared<CompareCommand>();
   command->add_to(app);
+  command->common.add_validity_to(app);
   FigureOutput::add_options_to(app, command->format, command->panel_width);
   app.add_option("--denoise", command->classical_denoiser,
                  "denoiser in front of the classical detectors (thermedge's own: --set "

@@ -91,6 +91,7 @@ void add_denoise(CLI::App& program, int& exit_code) {
       "denoise", "frames with less noise, in counts; slower and finer than what detect does");
   auto command = std::make_shared<DenoiseCommand>();
   command->common.add_to(app);
+  command->common.add_validity_to(app);
   command->config.add_to(app);
   app.get_option("INPUT")->required(false);  // --dump-config needs none
   app.add_option("--method", command->method, "denoiser (default bm3d)")

@@ -11,6 +11,7 @@ void add_detect(CLI::App& program, int& exit_code) {
   auto command = std::make_shared<EdgeCommand>();
   command->add_to(app);
   command->add_denoising_to(app);
+  command->common.add_validity_to(app);
   app.callback([command, &exit_code] {
     exit_code = command->run_on_frames(
         [](Detector& detector, const io::SourceFrame& frame, Detection& detection) {

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <utility>
 
@@ -106,11 +107,81 @@ class InputChain final : public io::FrameSource {
   std::size_t current_ = 0;
 };
 
+// Frames with the pixels that are no measurement noted.
+class MaskedSource final : public io::FrameSource {
+ public:
+  MaskedSource(std::unique_ptr<io::FrameSource> frames, const ValidityInput& validity,
+               Image<std::uint16_t> mask)
+      : frames_(std::move(frames)), validity_(validity), mask_(std::move(mask)) {}
+
+  Result<bool> next(io::SourceFrame& frame) override {
+    if (ended_) {
+      return false;
+    }
+    auto more = frames_->next(frame);
+    if (!more || !*more) {
+      return more;
+    }
+    const int width = frame.counts.width();
+    const int height = frame.counts.height();
+    if (!mask_.empty() && (mask_.width() != width || mask_.height() != height)) {
+      ended_ = true;
+      return failure(ErrorCode::kInvalidArgument,
+                     fmt::format("--mask {}: {}x{} pixels; should be {}x{} as {}", validity_.mask,
+                                 mask_.width(), mask_.height(), width, height, frame.source));
+    }
+    frame.valid.resize(width, height);
+    for (int y = 0; y < height; ++y) {
+      for (int x = 0; x < width; ++x) {
+        const bool is_masked = !mask_.empty() && mask_(x, y) == 0;
+        const bool is_invalid = std::find(validity_.counts.begin(), validity_.counts.end(),
+                                          frame.counts(x, y)) != validity_.counts.end();
+        frame.valid(x, y) = is_masked || is_invalid ? 0 : 1;
+      }
+    }
+    return true;
+  }
+
+  [[nodiscard]] std::size_t size_hint() const override { return frames_->size_hint(); }
+
+ private:
+  std::unique_ptr<io::FrameSource> frames_;
+  ValidityInput validity_;
+  Image<std::uint16_t> mask_;
+  bool ended_ = false;
+};
+
+Result<Image<std::uint16_t>> read_mask(const std::string& path) {
+  auto picture = io::read_picture(path);
+  if (!picture) {
+    return failure(picture.error().code, "--mask " + picture.error().message);
+  }
+  if (picture->bits != 8) {
+    return failure(ErrorCode::kUnsupported,
+                   fmt::format("--mask {}: a picture of 16 bits; should be one of 8", path));
+  }
+  return std::move(picture->counts);
+}
+
 }  // namespace
 
-std::unique_ptr<io::FrameSource> open_inputs(const std::vector<std::string>& inputs,
-                                             const io::SourceOptions& options) {
-  return std::make_unique<InputChain>(inputs, options);
+Result<std::unique_ptr<io::FrameSource>> open_inputs(const std::vector<std::string>& inputs,
+                                                     const io::SourceOptions& options,
+                                                     const ValidityInput& validity) {
+  std::unique_ptr<io::FrameSource> frames = std::make_unique<InputChain>(inputs, options);
+  if (validity.empty()) {
+    return frames;
+  }
+  Image<std::uint16_t> mask;
+  if (!validity.mask.empty()) {
+    auto read = read_mask(validity.mask);
+    if (!read) {
+      return tl::unexpected(read.error());
+    }
+    mask = std::move(*read);
+  }
+  return std::unique_ptr<io::FrameSource>(
+      std::make_unique<MaskedSource>(std::move(frames), validity, std::move(mask)));
 }
 
 }  // namespace thermedge::cli

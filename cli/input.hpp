@@ -6,13 +6,18 @@
 #include <string>
 #include <vector>
 
+#include "common.hpp"
 #include "thermedge/io/source.hpp"
 
 namespace thermedge::cli {
 
 // Opens files, directories, globs, "-" and "sim:NAME?...", one after the other, in the order given.
 // An input that cannot be opened is one error of next(); the following inputs still run.
-[[nodiscard]] std::unique_ptr<io::FrameSource> open_inputs(const std::vector<std::string>& inputs,
-                                                           const io::SourceOptions& options);
+// `validity`: SourceFrame::valid is set by it. Errors: the mask cannot be read, or has not 8 bits.
+// A frame of another size than the mask is one error of next(), after which there are no more
+// frames.
+[[nodiscard]] Result<std::unique_ptr<io::FrameSource>> open_inputs(
+    const std::vector<std::string>& inputs, const io::SourceOptions& options,
+    const ValidityInput& validity);
 
 }  // namespace thermedge::cli

@@ -63,7 +63,7 @@ int ProbeCommand::run() const {
         if (first_frame.empty()) {
           first_frame = frame.counts.clone();
         }
-        return recording.add(frame.counts, frame.bits);
+        return recording.add(frame.counts, frame.bits, frame.valid);
       });
   const RecordingReport result = recording.report();
   if (result.frames == 0) {
@@ -106,6 +106,7 @@ void add_probe(CLI::App& program, int& exit_code) {
       "probe", "what a recording is like: range, noise, stripes, bad pixels, freezes, options");
   auto command = std::make_shared<ProbeCommand>();
   command->common.add_to(app);
+  command->common.add_validity_to(app);
   app.get_option("-o")->description("also as a picture: .png, .svg or .pdf");
   CLI::Option* worth =
       app.add_option("--degc-per-count", command->probe.degc_per_count, "worth of a count, degC")

@@ -53,6 +53,7 @@ class Page {
     range();
     noise();
     stripes();
+    invalid_pixels();
     bad_pixels();
     clipping();
     sequence();
@@ -93,6 +94,7 @@ class Page {
   void noise();
   void fixed_pattern();
   void stripes();
+  void invalid_pixels();
   void bad_pixels();
   void clipping();
   void sequence();
@@ -171,6 +173,29 @@ void Page::stripes() {
                   grade(kStripeGrades, report_.column_sigma_counts / sigma)));
   row("rows", fmt::format("{:.2f}", report_.row_sigma_counts),
       fmt::format("level stripes: {}", grade(kStripeGrades, report_.row_sigma_counts / sigma)));
+}
+
+// Said only where there are some.
+void Page::invalid_pixels() {
+  const bool is_any = report_.given_invalid_pixels + report_.found_invalid_pixels > 0;
+  if (!is_any && report_.dead_rows + report_.dead_columns == 0) {
+    return;
+  }
+  heading("Pixels that are no measurement");
+  const auto a_frame = [](double number) { return fmt::format("{:.1f} a frame", number); };
+  if (report_.given_invalid_pixels > 0) {
+    row("given", a_frame(report_.given_invalid_pixels), "filled, and kept clear of edges");
+  }
+  if (report_.found_invalid_pixels > 0) {
+    row("found", a_frame(report_.found_invalid_pixels),
+        "black corners, bars, telemetry, dead blocks: the same");
+  }
+  if (report_.dead_rows > 0) {
+    row("dead rows", a_frame(report_.dead_rows), "replaced by those beside them");
+  }
+  if (report_.dead_columns > 0) {
+    row("dead columns", a_frame(report_.dead_columns), "replaced by those beside them");
+  }
 }
 
 void Page::bad_pixels() {

@@ -39,7 +39,8 @@ int StagesCommand::draw() const {
     }
     return for_each_frame(common, source, report, [&](const io::SourceFrame& frame) {
       return output->begin_frame(frame.stem)
-          .and_then([&] { return sheet->draw(frame.counts, frame.bits, frame.source); })
+          .and_then(
+              [&] { return sheet->draw(frame.counts, frame.bits, frame.source, frame.valid); })
           .and_then([&](const figures::StagesFigures& made) { return write(made, *output); });
     });
   });
@@ -53,6 +54,7 @@ void add_stages(CLI::App& program, int& exit_code) {
   auto command = std::make_shared<StagesCommand>();
   command->add_to(app);
   command->add_denoising_to(app);
+  command->common.add_validity_to(app);
   FigureOutput::add_options_to(app, command->format, command->panel_width);
   app.callback([command, &exit_code] { exit_code = command->draw(); });
 }

@@ -99,9 +99,9 @@ struct ComparisonSheet::Impl {
 
   Result<ComparedMap> run_classical(const ClassicalName& method, ImageView<const float> levels,
                                     double sigma_levels);
-  Result<ComparedMap> run_thermedge(ImageView<const std::uint16_t> frame, int bits);
-  Result<Comparison> draw(ImageView<const std::uint16_t> frame, int bits,
-                          const std::string& source);
+  Result<ComparedMap> run_thermedge(const Frame& frame);
+  Result<Comparison> draw(ImageView<const std::uint16_t> frame, int bits, const std::string& source,
+                          ImageView<const std::uint8_t> valid);
   [[nodiscard]] Figure sheet(ImageView<const std::uint16_t> frame,
                              std::span<const ComparedMap> maps, const std::string& source) const;
 
@@ -133,14 +133,13 @@ Result<ComparedMap> ComparisonSheet::Impl::run_classical(const ClassicalName& me
       });
 }
 
-Result<ComparedMap> ComparisonSheet::Impl::run_thermedge(ImageView<const std::uint16_t> frame,
-                                                         int bits) {
+Result<ComparedMap> ComparisonSheet::Impl::run_thermedge(const Frame& frame) {
   ComparedMap map;
   map.name = "thermedge";
   map.display = fmt::format("thermedge ({})", preset_name(options.detector.preset()));
   map.edges.resize(frame.width(), frame.height());
   return timed([&] {
-           return detector.detect({frame, bits}, detection).map([&] {
+           return detector.detect(frame, detection).map([&] {
              draw_mask(detection.edges, map.edges);
            });
          })
@@ -152,9 +151,12 @@ Result<ComparedMap> ComparisonSheet::Impl::run_thermedge(ImageView<const std::ui
 }
 
 Result<Comparison> ComparisonSheet::Impl::draw(ImageView<const std::uint16_t> frame, int bits,
-                                               const std::string& source) {
+                                               const std::string& source,
+                                               ImageView<const std::uint8_t> valid) {
+  Frame given(frame, bits);
+  given.valid = valid;
   Intermediates steps;
-  if (Status status = detector.detect({frame, bits}, detection, {&steps, {}}); !status) {
+  if (Status status = detector.detect(given, detection, {&steps, {}}); !status) {
     return tl::unexpected(status.error());
   }
   Image<float> levels(frame.width(), frame.height());
@@ -172,7 +174,7 @@ Result<Comparison> ComparisonSheet::Impl::draw(ImageView<const std::uint16_t> fr
     }
     maps.push_back(std::move(*map));
   }
-  auto thermedge_map = run_thermedge(frame, bits);
+  auto thermedge_map = run_thermedge(given);
   if (!thermedge_map) {
     return tl::unexpected(thermedge_map.error());
   }
@@ -225,9 +227,10 @@ ComparisonSheet& ComparisonSheet::operator=(ComparisonSheet&&) noexcept = defaul
 ComparisonSheet::~ComparisonSheet() = default;
 
 Result<Comparison> ComparisonSheet::draw(ImageView<const std::uint16_t> frame, int bits,
-                                         const std::string& source) {
+                                         const std::string& source,
+                                         ImageView<const std::uint8_t> valid) {
   try {
-    return impl_->draw(frame, bits, source);
+    return impl_->draw(frame, bits, source, valid);
   } catch (const std::bad_alloc&) {
     return failure(ErrorCode::kOutOfMemory, "comparison: out of memory");
   }

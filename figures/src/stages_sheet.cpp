@@ -107,6 +107,13 @@ class StagePanels {
       note +=
           fmt::format(" {} replaced.", plural(found_.corrections.bad_pixels.size(), "bad pixel"));
     }
+    const InvalidPixels& invalid = found_.corrections.invalid;
+    if (invalid.given + invalid.found > 0) {
+      note += fmt::format(" {} no measurement.",
+                          invalid.given + invalid.found == 1
+                              ? std::string("1 pixel is")
+                              : fmt::format("{} pixels are", invalid.given + invalid.found));
+    }
     return panel("Frame", std::move(note), frame_picture(steps_.corrected.view()));
   }
 
@@ -347,16 +354,19 @@ struct StagesSheet::Impl {
   Image<std::uint8_t> mask;
 
   Result<StagesFigures> draw(ImageView<const std::uint16_t> frame, int bits,
-                             const std::string& source);
+                             const std::string& source, ImageView<const std::uint8_t> valid);
 };
 
 Result<StagesFigures> StagesSheet::Impl::draw(ImageView<const std::uint16_t> frame, int bits,
-                                              const std::string& source) {
+                                              const std::string& source,
+                                              ImageView<const std::uint8_t> valid) {
   denoised.clear();
+  Frame given(frame, bits);
+  given.valid = valid;
   for (auto& [method, detector] : detectors) {
     // The first run on a frame's size allocates; the second shows the usual times.
-    Status status = detector.detect({frame, bits}, detection).and_then([&, &again = detector] {
-      return again.detect({frame, bits}, detection, {&steps, {}});
+    Status status = detector.detect(given, detection).and_then([&, &again = detector] {
+      return again.detect(given, detection, {&steps, {}});
     });
     if (!status) {
       return tl::unexpected(status.error());
@@ -415,9 +425,10 @@ StagesSheet& StagesSheet::operator=(StagesSheet&&) noexcept = default;
 StagesSheet::~StagesSheet() = default;
 
 Result<StagesFigures> StagesSheet::draw(ImageView<const std::uint16_t> frame, int bits,
-                                        const std::string& source) {
+                                        const std::string& source,
+                                        ImageView<const std::uint8_t> valid) {
   try {
-    return impl_->draw(frame, bits, source);
+    return impl_->draw(frame, bits, source, valid);
   } catch (const std::bad_alloc&) {
     return failure(ErrorCode::kOutOfMemory, "sheet of stages: out of memory");
   }

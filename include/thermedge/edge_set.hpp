@@ -97,6 +97,10 @@ struct Edge {
   double length_px = 0;  // arc length
   double contrast_counts = 0;  // mean step across the edge, counts
   bool closed = false;
+  // Whether the first, or the last, point is where pixels that are no measurement cut the edge off:
+  // the thing that it bounds goes on there.
+  bool begins_at_invalid = false;
+  bool ends_at_invalid = false;
   bool kept = false;  // status == kKept
   EdgeStatus status = EdgeStatus::kKept;
   BoundingBox box;

@@ -43,8 +43,7 @@ struct Frame {
   Pixels pixels;
   int bits = 16;  // 8: grey levels, which preset paper does not scale by Algorithm 1; else 16
   // As large as the frame, nonzero where a pixel is a measurement; empty: everywhere. Other
-  // pixels take the value of the nearest valid one in their row, and no edge pixel lies on them or
-  // beside them.
+  // pixels are filled smoothly from those around them, and no edge lies on them or beside them.
   ImageView<const std::uint8_t> valid;
   std::int64_t stamp_ns = 0;  // when it was taken, of the source's clock; handed on
   std::int64_t index = 0;     // number within its source; handed on

@@ -12,12 +12,14 @@
 #include "thermedge/stages/denoiser.hpp"
 #include "thermedge/stages/preprocessor.hpp"
 #include "thermedge/stages/stripes.hpp"
+#include "thermedge/stages/validity.hpp"
 
 namespace thermedge {
 
 // The defaults give the best picture, where a detector's give the best edges: BM3D with its quality
 // profile, told the noise as it is, and nothing after it. Stripes stay: a picture of them is true.
 struct FrameDenoiserOptions {
+  ValidityOptions validity;
   BadPixelOptions bad_pixels;
   StripeOptions stripes;
   DenoiseOptions denoise;
@@ -30,6 +32,7 @@ struct FrameDenoiserOptions {
 
 template <OptionsOf<FrameDenoiserOptions> O, class V>
 void visit_options(O& o, V&& v) {
+  v.group("validity", o.validity);
   v.group("bad_pixels", o.bad_pixels);
   v.group("stripes", o.stripes);
   v.group("denoise", o.denoise);

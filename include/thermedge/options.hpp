@@ -21,6 +21,7 @@
 #include "thermedge/stages/scoring.hpp"
 #include "thermedge/stages/selection.hpp"
 #include "thermedge/stages/stripes.hpp"
+#include "thermedge/stages/validity.hpp"
 
 namespace thermedge {
 
@@ -58,6 +59,7 @@ class DetectorOptions {
   int threads = 0;            // 0: one per core, 0..1024
   std::string simd = "auto";  // instruction set of the kernels: auto, or a name of simd_targets()
   // Stages that every preset has.
+  ValidityOptions validity;
   BadPixelOptions bad_pixels;
   StripeOptions stripes;
   DenoiseOptions denoise;
@@ -99,6 +101,7 @@ void visit_options(O& o, V&& v) {
 template <OptionsOf<DetectorOptions> O, class V>
 void visit_options(O& o, V&& v) {
   v("threads", o.threads, Bounds{0, 1024}, "threads (0: one per core)");
+  v.group("validity", o.validity);
   v.group("bad_pixels", o.bad_pixels);
   v.group("stripes", o.stripes);
   v.group("denoise", o.denoise);

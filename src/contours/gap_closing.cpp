@@ -45,8 +45,10 @@ double step_across(ImageView<const float> frame, double side_px, double at_x, do
 Status GapClosingOptions::check() const { return check_ranges(*this, "gap_closing."); }
 
 Status GapCloser::run(const LinkedContours& curves, ImageView<const float> frame,
-                      std::span<const std::uint8_t> eligible, LinkedContours& bridged) {
+                      std::span<const std::uint8_t> eligible, LinkedContours& bridged,
+                      ImageView<const std::uint8_t> valid) {
   bridged.clear();
+  valid_ = valid;
   if (Status status = options_.check(); !status) {
     return status;
   }
@@ -273,7 +275,34 @@ std::optional<Pixel> GapCloser::corner_of(const Tip& a, const Tip& b) const {
   return inside && corner != a.at && corner != b.at ? std::optional(corner) : std::nullopt;
 }
 
+// Whether one of the pixels around the way is no measurement.
+bool GapCloser::leads_over_invalid(const Tip& tip, Pixel to) const {
+  constexpr double kRounding = 1e-6;  // more than that of a place
+  if (valid_.empty()) {
+    return false;
+  }
+  const double length = std::sqrt(static_cast<double>(squared_distance(tip.at, to)));
+  const Vector way = direction(tip.at, to);
+  const auto first = [](double place) { return static_cast<int>(std::floor(place + kRounding)); };
+  const auto last = [](double place) { return static_cast<int>(std::ceil(place - kRounding)); };
+  for (double along = 0; along <= length; along += tuning_.step_px) {
+    const double x = tip.at.x + along * way.x;
+    const double y = tip.at.y + along * way.y;
+    for (int v = first(y); v <= last(y); ++v) {
+      for (int u = first(x); u <= last(x); ++u) {
+        if (valid_(u, v) == 0) {
+          return true;
+        }
+      }
+    }
+  }
+  return false;
+}
+
 bool GapCloser::step_goes_on(const Tip& tip, Pixel to, ImageView<const float> frame) const {
+  if (leads_over_invalid(tip, to)) {
+    return false;
+  }
   const double length = std::sqrt(static_cast<double>(squared_distance(tip.at, to)));
   if (length <= tuning_.unseen_px) {
     return true;

@@ -29,14 +29,15 @@ class Values {
   std::size_t count_ = 0;
 };
 
-// The pixels within the frame that lie `radius` columns or rows away from (x, y) and fulfil
-// `is_good(x, y)`.
+// The pixels within the frame that lie `radius` columns or rows away from the block of `side` x
+// `side` pixels from (x, y) on and fulfil `is_good(x, y)`.
 template <class F>
-Values ring(Frame frame, int x, int y, int radius, F&& is_good) {
+Values ring(Frame frame, int x, int y, int radius, F&& is_good, int side = 1) {
   Values values;
-  for (int j = y - radius; j <= y + radius; ++j) {
-    const bool whole_row = std::abs(j - y) == radius;
-    for (int i = x - radius; i <= x + radius; i += whole_row ? 1 : 2 * radius) {
+  const int last = radius + side - 1;
+  for (int j = y - radius; j <= y + last; ++j) {
+    const bool whole_row = j == y - radius || j == y + last;
+    for (int i = x - radius; i <= x + last; i += whole_row ? 1 : radius + last) {
       if (frame.contains(i, j) && is_good(i, j)) {
         values.add(frame(i, j));
       }
@@ -46,8 +47,9 @@ Values ring(Frame frame, int x, int y, int radius, F&& is_good) {
   return values;
 }
 
-Values ring(Frame frame, int x, int y, int radius) {
-  return ring(frame, x, y, radius, [](int, int) { return true; });
+Values ring(Frame frame, int x, int y, int radius, int side = 1) {
+  return ring(
+      frame, x, y, radius, [](int, int) { return true; }, side);
 }
 
 // The rule for dead pixels in full; slow, so only the pixels that pass the noise test get here.
@@ -66,6 +68,51 @@ bool is_dead(Frame frame, int x, int y, int limit, int optics_ratio) {
   const int hill = std::max(neighbours.second_largest() - surroundings.median(), contrast);
   const int hollow = std::max(surroundings.median() - neighbours.second_smallest(), contrast);
   return above > limit + optics_ratio * hill || below > limit + optics_ratio * hollow;
+}
+
+// The same for the block of 2x2 pixels from (x, y) on.
+bool is_dead_block(Frame frame, int x, int y, int limit, int optics_ratio) {
+  const auto [least, largest] =
+      std::minmax({frame(x, y), frame(x + 1, y), frame(x, y + 1), frame(x + 1, y + 1)});
+  const Values neighbours = ring(frame, x, y, 1, 2);
+  const int above = least - neighbours.largest();
+  const int below = neighbours.smallest() - largest;
+  if (std::max(above, below) <= limit) {
+    return false;
+  }
+  const Values surroundings = ring(frame, x, y, 2, 2);
+  const bool all_seen = neighbours.size() == 12;
+  const int contrast = all_seen ? 0 : surroundings.largest() - surroundings.smallest();
+  const int hill = std::max(neighbours.largest() - surroundings.median(), contrast);
+  const int hollow = std::max(surroundings.median() - neighbours.smallest(), contrast);
+  return above > limit + optics_ratio * hill || below > limit + optics_ratio * hollow;
+}
+
+bool is_before(const BadPixel& a, const BadPixel& b) { return a.y != b.y ? a.y < b.y : a.x < b.x; }
+
+// Adds the pixels of dead blocks to `dead`, which stays in order and without repetitions.
+void find_bad_blocks(Frame frame, int limit, int optics_ratio, std::vector<BadPixel>& dead) {
+  const std::size_t singles = dead.size();
+  const auto look_at = [&](int x, int y) {
+    if (is_dead_block(frame, x, y, limit, optics_ratio)) {
+      dead.insert(dead.end(), {{x, y}, {x + 1, y}, {x, y + 1}, {x + 1, y + 1}});
+    }
+  };
+  const int right = frame.width() - 2;  // columns and rows of the last blocks
+  const int bottom = frame.height() - 2;
+  for (int y = 0; y <= bottom; ++y) {
+    const bool is_whole = y == 0 || y == bottom ||
+                          detail::any_block_stands_out(
+                              {frame.row(y - 1), frame.row(y), frame.row(y + 1), frame.row(y + 2)},
+                              frame.width(), limit);
+    for (int x = 0; x <= right; x += is_whole ? 1 : right) {
+      look_at(x, y);
+    }
+  }
+  if (dead.size() > singles) {
+    std::sort(dead.begin(), dead.end(), is_before);
+    dead.erase(std::unique(dead.begin(), dead.end()), dead.end());
+  }
 }
 
 int limit_counts(double sigma_counts, const BadPixelOptions& options,
@@ -96,9 +143,7 @@ void find_bad_pixels(Frame frame, int limit, int optics_ratio, std::vector<BadPi
 }
 
 bool contains(const std::vector<BadPixel>& dead, int x, int y) {
-  return std::binary_search(
-      dead.begin(), dead.end(), BadPixel{x, y},
-      [](const BadPixel& a, const BadPixel& b) { return a.y != b.y ? a.y < b.y : a.x < b.x; });
+  return std::binary_search(dead.begin(), dead.end(), BadPixel{x, y}, is_before);
 }
 
 }  // namespace
@@ -112,7 +157,9 @@ void replace_bad_pixels(ImageView<std::uint16_t> frame, double sigma_counts,
   if (std::min(frame.width(), frame.height()) < tuning.smallest_side_px) {
     return;
   }
-  find_bad_pixels(frame, limit_counts(sigma_counts, options, tuning), tuning.optics_ratio, dead);
+  const int limit = limit_counts(sigma_counts, options, tuning);
+  find_bad_pixels(frame, limit, tuning.optics_ratio, dead);
+  find_bad_blocks(frame, limit, tuning.block_optics_ratio, dead);
   const auto is_good = [&](int x, int y) { return !contains(dead, x, y); };
   for (const BadPixel& pixel : dead) {
     Values values = ring(frame, pixel.x, pixel.y, 1, is_good);

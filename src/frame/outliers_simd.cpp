@@ -1,6 +1,7 @@
 #include "outliers_simd.hpp"
 
 #include <algorithm>
+#include <array>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "outliers_simd.cpp"
@@ -91,6 +92,45 @@ void append_outliers(const CountRows& rows, int width, int y, int limit,
   append_from_vector(d, rows, width - 1 - lanes, x, y, limit, outliers);
 }
 
+// Of the blocks whose left upper pixels are the lanes from column `first`: by how much their least
+// pixel exceeds one neighbour on each side, or their largest one falls short of these, beyond
+// `limit`; 0 where neither does.
+template <class D>
+hn::Vec<D> block_excess(D d, const std::array<const std::uint16_t*, 4>& rows, int first,
+                        hn::Vec<D> limit) {
+  const auto at = [&](std::size_t row, int step) { return hn::LoadU(d, rows[row] + first + step); };
+  const auto a = at(1, 0);
+  const auto b = at(1, 1);
+  const auto c = at(2, 0);
+  const auto e = at(2, 1);
+  const auto above = at(0, 0);
+  const auto below = at(3, 1);
+  const auto left = at(2, -1);
+  const auto right = at(1, 2);
+  const auto least = hn::Min(hn::Min(a, b), hn::Min(c, e));
+  const auto largest = hn::Max(hn::Max(a, b), hn::Max(c, e));
+  const auto high = hn::Max(hn::Max(above, below), hn::Max(left, right));
+  const auto low = hn::Min(hn::Min(above, below), hn::Min(left, right));
+  const auto excess = hn::Max(hn::SaturatedSub(least, high), hn::SaturatedSub(low, largest));
+  return hn::SaturatedSub(excess, limit);
+}
+
+bool any_block_stands_out(const std::array<const std::uint16_t*, 4>& rows, int width, int limit) {
+  const hn::ScalableTag<std::uint16_t> d;
+  const auto lanes = static_cast<int>(hn::Lanes(d));
+  const int end = width - 2;  // of the left columns that have all neighbours
+  if (end - 1 < lanes) {
+    return true;  // a short row is looked at pixel by pixel
+  }
+  const auto limits = hn::Set(d, static_cast<std::uint16_t>(limit));
+  auto any = hn::Zero(d);
+  for (int x = 1; x + lanes <= end; x += lanes) {
+    any = hn::Or(any, block_excess(d, rows, x, limits));
+  }
+  any = hn::Or(any, block_excess(d, rows, end - lanes, limits));
+  return !hn::AllTrue(d, any == hn::Zero(d));
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace thermedge::detail
 HWY_AFTER_NAMESPACE();
@@ -99,10 +139,15 @@ HWY_AFTER_NAMESPACE();
 namespace thermedge::detail {
 
 HWY_EXPORT(append_outliers);
+HWY_EXPORT(any_block_stands_out);
 
 void append_outliers(const CountRows& rows, int width, int y, int limit,
                      std::vector<BadPixel>& outliers) {
   THERMEDGE_SIMD_DISPATCH(append_outliers)(rows, width, y, limit, outliers);
+}
+
+bool any_block_stands_out(const std::array<const std::uint16_t*, 4>& rows, int width, int limit) {
+  return THERMEDGE_SIMD_DISPATCH(any_block_stands_out)(rows, width, limit);
 }
 
 }  // namespace thermedge::detail

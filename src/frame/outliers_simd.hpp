@@ -14,4 +14,9 @@ namespace thermedge::detail {
 void append_outliers(const CountRows& rows, int width, int y, int limit,
                      std::vector<BadPixel>& outliers);
 
+// Whether a block of 2x2 pixels, of the middle two of four rows, may be off by more than `limit`
+// from all pixels around: false only where none is. Blocks that touch a border are left out.
+[[nodiscard]] bool any_block_stands_out(const std::array<const std::uint16_t*, 4>& rows, int width,
+                                        int limit);
+
 }  // namespace thermedge::detail

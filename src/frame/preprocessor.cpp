@@ -22,11 +22,12 @@ bool is_count(float value) {
 ImageView<const std::uint16_t> Preprocessor::run(const Frame& frame, ParallelRunner& runner,
                                                  Corrections& corrections) {
   corrected_.resize(frame.width(), frame.height());
-  note_validity(frame);
+  valid_.resize(frame.width(), frame.height());
+  hole_filler_.prepare(frame.width(), frame.height());
+  invalid_finder_.prepare(frame.width(), frame.height());
   load(frame, corrections);
-  if (!valid_view_.empty()) {
-    fill_invalid();
-  }
+  note_validity(frame, corrections.invalid);
+  fill_invalid(corrections.invalid);
   corrections.noise = noise_estimator_.measure(corrected_);
   corrections.bad_pixels.clear();
   corrections.stripes.columns.clear();
@@ -113,61 +114,52 @@ void Preprocessor::choose_scale(ImageView<const float> values, Corrections& corr
   corrections.offset = (low + high) / 2 - kMiddleCounts / corrections.counts_per_unit;
 }
 
-void Preprocessor::note_validity(const Frame& frame) {
+void Preprocessor::note_validity(const Frame& frame, InvalidPixels& invalid) {
   const auto* values = std::get_if<ImageView<const float>>(&frame.pixels);
-  valid_view_ = {};
-  if (values == nullptr && frame.valid.empty()) {
-    return;
-  }
-  valid_.resize(frame.width(), frame.height());
-  bool all_valid = true;
+  invalid = {};
   for (int y = 0; y < frame.height(); ++y) {
-    for (int x = 0; x < frame.width(); ++x) {
-      const bool valid = (frame.valid.empty() || frame.valid(x, y) != 0) &&
-                         (values == nullptr || std::isfinite((*values)(x, y)));
-      valid_(x, y) = valid ? 1 : 0;
-      all_valid = all_valid && valid;
+    std::uint8_t* valid = valid_.row(y);
+    if (frame.valid.empty()) {
+      std::fill_n(valid, frame.width(), std::uint8_t{1});
+    } else {
+      std::transform(frame.valid.row(y), frame.valid.row(y) + frame.width(), valid,
+                     [](std::uint8_t given) { return given != 0 ? std::uint8_t{1} : given; });
+    }
+    if (values != nullptr) {
+      for (int x = 0; x < frame.width(); ++x) {
+        valid[x] = std::isfinite((*values)(x, y)) ? valid[x] : std::uint8_t{0};
+      }
     }
   }
-  if (!all_valid) {
+  if (!frame.valid.empty() || values != nullptr) {
+    invalid.given = count_invalid();
+  }
+}
+
+// Pixels that were given are filled first: whatever they hold, nothing is to be found there.
+void Preprocessor::fill_invalid(InvalidPixels& invalid) {
+  if (invalid.given > 0) {
+    hole_filler_.fill(corrected_, valid_);
+  }
+  if (validity_options_.find) {
+    invalid_finder_.run(corrected_, valid_, invalid);
+    invalid.found = count_invalid() - invalid.given;
+    if (invalid.found > 0) {
+      hole_filler_.fill(corrected_, valid_);
+    }
+  }
+  valid_view_ = {};
+  if (invalid.given + invalid.found > 0) {
     valid_view_ = valid_;
   }
 }
 
-// By the nearest valid pixel of the row, the left one of two as near; a row without any takes the
-// row before it, or, at the top, the first one that has some.
-void Preprocessor::fill_invalid() {
-  int last_filled = -1;
-  for (int y = 0; y < corrected_.height(); ++y) {
-    const std::uint8_t* valid = valid_view_.row(y);
-    std::uint16_t* counts = corrected_.row(y);
-    const int width = corrected_.width();
-    if (std::none_of(valid, valid + width, [](std::uint8_t v) { return v != 0; })) {
-      if (last_filled >= 0) {
-        std::copy_n(corrected_.row(last_filled), width, counts);
-        last_filled = y;
-      }
-      continue;
-    }
-    int left = -1;
-    for (int x = 0; x < width; ++x) {
-      if (valid[x] != 0) {
-        left = x;
-        continue;
-      }
-      const auto* next =
-          std::find_if(valid + x, valid + width, [](std::uint8_t v) { return v != 0; });
-      const int right = static_cast<int>(next - valid);
-      const bool take_left = left >= 0 && (right >= width || x - left <= right - x);
-      counts[x] = counts[take_left ? left : right];
-    }
-    if (last_filled < 0) {
-      for (int above = 0; above < y; ++above) {
-        std::copy_n(counts, width, corrected_.row(above));
-      }
-    }
-    last_filled = y;
+std::int64_t Preprocessor::count_invalid() const {
+  std::int64_t number = 0;
+  for (int y = 0; y < valid_.height(); ++y) {
+    number += std::count(valid_.row(y), valid_.row(y) + valid_.width(), std::uint8_t{0});
   }
+  return number;
 }
 
 }  // namespace thermedge

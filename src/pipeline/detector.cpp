@@ -35,6 +35,7 @@ void begin(Detection& found, Preset preset, int width, int height) {
   found.height = height;
   found.stamp_ns = found.index = 0;
   found.flags = 0;
+  found.corrections.invalid = {};
   found.corrections.noise = {};
   found.corrections.noise_model.level_counts = 0;
   found.corrections.noise_model.spectrum = white_spectrum();

@@ -15,14 +15,15 @@ constexpr double kSmoothNoise = 2.5;
 }  // namespace
 
 Status FrameDenoiserOptions::check() const {
-  return bad_pixels.check().and_then([&] { return stripes.check(); }).and_then([&] {
-    return denoise.check();
-  });
+  return validity.check()
+      .and_then([&] { return bad_pixels.check(); })
+      .and_then([&] { return stripes.check(); })
+      .and_then([&] { return denoise.check(); });
 }
 
 FrameDenoiser::FrameDenoiser(const FrameDenoiserOptions& options)
     : options_(options),
-      preprocessor_(options.bad_pixels, options.stripes, true),
+      preprocessor_(options.bad_pixels, options.stripes, options.validity, true),
       denoiser_(options.denoise) {}
 
 Result<ImageView<const std::uint16_t>> FrameDenoiser::run(const Frame& frame,

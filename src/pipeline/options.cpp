@@ -63,7 +63,7 @@ Status PaperOptions::check() const {
 
 Status DetectorOptions::check() const {
   return check_ranges(*this, "")
-      .and_then([&] { return check_each(bad_pixels, stripes, denoise, selection); })
+      .and_then([&] { return check_each(validity, bad_pixels, stripes, denoise, selection); })
       .and_then([&] { return std::visit([](const auto& own) { return own.check(); }, own_); })
       .and_then([&] { return check_denoisers(denoise, DetectorOptions(preset_).denoise); });
 }

@@ -19,6 +19,7 @@ Status PaperPipeline::detect(const Frame& frame, const Call& call, Detection& fo
   measure_contrast(counts_, found.corrections.noise.sigma_counts, found.edges);
   THERMEDGE_TRY(clock.lap("significance", {}));
   THERMEDGE_TRY(clock.lap("selection", selector_.run(found.edges)));
+  mark_cut_ends(preprocessor_.valid(), found.edges);
   keep_intermediates(call.intermediates);
   convert_to_frame_units(found);
   return {};
@@ -54,7 +55,7 @@ PaperPipeline::PaperPipeline(const DetectorOptions& options, const PaperOptions&
       grey_scale_(own.grey_scale),
       linking_(own.linking),
       corner_options_(own.corners),
-      preprocessor_(options.bad_pixels, options.stripes, false),
+      preprocessor_(options.bad_pixels, options.stripes, options.validity, false),
       denoiser_(options.denoise),
       canny_(own.canny),
       tracer_(own.contours),
@@ -90,7 +91,12 @@ Status PaperPipeline::denoise(int bits, ParallelRunner& runner, Detection& found
 // Algorithm 2.
 Status PaperPipeline::find_edge_pixels(ParallelRunner& runner, Detection& found) {
   return canny_.run(denoised_, runner).map([&](const CannyResult& pixels) {
-    edge_map_ = mask_invalid(pixels.edges, preprocessor_.valid(), masked_);
+    const ImageView<const std::uint8_t> valid = preprocessor_.valid();
+    if (!valid.empty()) {
+      keep_clear_of_invalid(valid, clear_);
+    }
+    edge_map_ = mask_invalid(
+        pixels.edges, valid.empty() ? valid : ImageView<const std::uint8_t>(clear_), masked_);
     found.threshold_low = pixels.low;
     found.threshold_high = pixels.high;
   });

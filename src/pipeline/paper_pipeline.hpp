@@ -24,7 +24,7 @@ class PaperPipeline final : public Pipeline {
 
   [[nodiscard]] std::size_t memory_bytes() const override {
     return memory_of(preprocessor_, denoiser_, canny_, tracer_, linker_, corner_finder_, scorer_,
-                     selector_, budgets_, levels_, denoised_, masked_, contours_.points,
+                     selector_, budgets_, levels_, denoised_, clear_, masked_, contours_.points,
                      contours_.items, linked_.contours.points, linked_.contours.items,
                      linked_.links, corners_.indices, corners_.ranges);
   }
@@ -55,7 +55,7 @@ class PaperPipeline final : public Pipeline {
   ImageView<const std::uint8_t> edge_map_;
   Image<std::uint8_t> levels_;
   Image<float> denoised_;  // grey levels
-  Image<std::uint8_t> masked_;
+  Image<std::uint8_t> clear_, masked_;
   ContourSet contours_;
   LinkedContours linked_;
   CornerSet corners_;

@@ -1,5 +1,7 @@
 #include "pipeline.hpp"
 
+#include <cmath>
+
 #include "paper_pipeline.hpp"
 #include "robust_pipeline.hpp"
 
@@ -29,28 +31,79 @@ void binarize(ImageView<const std::uint8_t> map, Image<std::uint8_t>& binary) {
   }
 }
 
-ImageView<const std::uint8_t> mask_invalid(ImageView<const std::uint8_t> edges,
-                                           ImageView<const std::uint8_t> valid,
-                                           Image<std::uint8_t>& masked) {
-  constexpr int kReachPx = 2;
-  if (valid.empty()) {
-    return edges;
+// Only pixels beside a valid one clear more than themselves.
+void keep_clear_of_invalid(ImageView<const std::uint8_t> valid, Image<std::uint8_t>& clear) {
+  const int width = valid.width();
+  const int height = valid.height();
+  clear.resize(width, height);
+  for (int y = 0; y < height; ++y) {
+    std::transform(valid.row(y), valid.row(y) + width, clear.row(y),
+                   [](std::uint8_t value) { return value != 0 ? std::uint8_t{1} : value; });
   }
-  copy_image(edges, masked);
-  for (int y = 0; y < valid.height(); ++y) {
-    for (int x = 0; x < valid.width(); ++x) {
-      if (valid(x, y) != 0) {
+  const auto is_inside = [&](int x, int y) {
+    for (int v = std::max(y - 1, 0); v <= std::min(y + 1, height - 1); ++v) {
+      for (int u = std::max(x - 1, 0); u <= std::min(x + 1, width - 1); ++u) {
+        if (valid(u, v) != 0) {
+          return false;
+        }
+      }
+    }
+    return true;
+  };
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      if (valid(x, y) != 0 || is_inside(x, y)) {
         continue;
       }
-      const int bottom = std::min(y + kReachPx, valid.height() - 1);
-      const int left = std::max(x - kReachPx, 0);
-      const int right = std::min(x + kReachPx, valid.width() - 1);
-      for (int near_y = std::max(y - kReachPx, 0); near_y <= bottom; ++near_y) {
-        std::fill(masked.row(near_y) + left, masked.row(near_y) + right + 1, std::uint8_t{0});
+      const int bottom = std::min(y + kInvalidReachPx, height - 1);
+      const int left = std::max(x - kInvalidReachPx, 0);
+      const int right = std::min(x + kInvalidReachPx, width - 1);
+      for (int v = std::max(y - kInvalidReachPx, 0); v <= bottom; ++v) {
+        std::fill(clear.row(v) + left, clear.row(v) + right + 1, std::uint8_t{0});
       }
     }
   }
+}
+
+ImageView<const std::uint8_t> mask_invalid(ImageView<const std::uint8_t> edges,
+                                           ImageView<const std::uint8_t> clear,
+                                           Image<std::uint8_t>& masked) {
+  if (clear.empty()) {
+    return edges;
+  }
+  masked.resize(edges.width(), edges.height());
+  for (int y = 0; y < edges.height(); ++y) {
+    std::transform(edges.row(y), edges.row(y) + edges.width(), clear.row(y), masked.row(y),
+                   [](std::uint8_t edge, std::uint8_t is_clear) {
+                     return is_clear != 0 ? edge : std::uint8_t{0};
+                   });
+  }
   return masked;
+}
+
+void mark_cut_ends(ImageView<const std::uint8_t> valid, EdgeSet& edges) {
+  constexpr int kReachPx = kInvalidReachPx + 2;
+  if (valid.empty()) {
+    return;
+  }
+  const auto is_cut = [&](std::uint32_t edgel) {
+    const auto x = static_cast<int>(std::floor(edges.edgels.x[edgel] + 0.5F));
+    const auto y = static_cast<int>(std::floor(edges.edgels.y[edgel] + 0.5F));
+    for (int v = std::max(y - kReachPx, 0); v <= std::min(y + kReachPx, valid.height() - 1); ++v) {
+      for (int u = std::max(x - kReachPx, 0); u <= std::min(x + kReachPx, valid.width() - 1); ++u) {
+        if (valid(u, v) == 0) {
+          return true;
+        }
+      }
+    }
+    return false;
+  };
+  for (Edge& edge : edges.edges) {
+    if (!edge.closed && edge.edgels.count > 0) {
+      edge.begins_at_invalid = is_cut(edge.edgels.first);
+      edge.ends_at_invalid = is_cut(edge.edgels.first + edge.edgels.count - 1);
+    }
+  }
 }
 
 void forget_contrast(EdgeSet& edges) {

@@ -53,11 +53,23 @@ void round_to_levels(ImageView<const float> in, Image<std::uint8_t>& levels);
 // Nonzero pixels become 255.
 void binarize(ImageView<const std::uint8_t> map, Image<std::uint8_t>& binary);
 
-// Takes edge pixels off that lie on pixels which are no measurement, or within 2 px of them.
-// `valid` empty: none does, and the map itself is returned; else the masked copy.
+// No edge lies on pixels that are no measurement or this near to them: the steps that filling
+// leaves at their border, and responses of kernels that reach across it.
+constexpr int kInvalidReachPx = 3;
+
+// `clear` is 0 within kInvalidReachPx (the larger of dx and dy) of pixels where `valid` is 0,
+// else 1.
+void keep_clear_of_invalid(ImageView<const std::uint8_t> valid, Image<std::uint8_t>& clear);
+
+// Takes edge pixels off where `clear` is 0. `clear` empty: the map itself is returned; else the
+// masked copy.
 [[nodiscard]] ImageView<const std::uint8_t> mask_invalid(ImageView<const std::uint8_t> edges,
-                                                         ImageView<const std::uint8_t> valid,
+                                                         ImageView<const std::uint8_t> clear,
                                                          Image<std::uint8_t>& masked);
+
+// Notes which ends of open edges lie where invalid pixels cut them off: within 2 px of where no
+// edge can be.
+void mark_cut_ends(ImageView<const std::uint8_t> valid, EdgeSet& edges);
 
 // Sets contrast, z and log10_nfa to NaN: an edge map alone has none.
 void forget_contrast(EdgeSet& edges);

@@ -7,6 +7,7 @@ namespace thermedge {
 namespace {
 
 void set_paper(DetectorOptions& options) {
+  options.validity.find = false;
   // ET: the text gives no number; with 60, upright edges, which ES ranks last, would be lost.
   options.selection = {
       .keep_edges = 100, .max_edgels = 0, .min_score = -1e9, .max_false_alarms = 0};

@@ -33,6 +33,7 @@ Status RobustPipeline::detect(const Frame& frame, const Call& call, Detection& f
                    found.edges);
   THERMEDGE_TRY(clock.lap("positions", {}));
   THERMEDGE_TRY(clock.lap("selection", select(found)));
+  mark_cut_ends(preprocessor_.valid(), found.edges);
   THERMEDGE_TRY(keep_intermediates(frame.bits, call.intermediates));
   convert_to_frame_units(found);
   return {};
@@ -63,7 +64,7 @@ Status RobustPipeline::trace(ImageView<const std::uint8_t> edge_map, const Call&
 RobustPipeline::RobustPipeline(const DetectorOptions& options, const RobustOptions& own)
     : options_(options),
       filter_options_(own.oriented_filter),
-      preprocessor_(options.bad_pixels, options.stripes, true),
+      preprocessor_(options.bad_pixels, options.stripes, options.validity, true),
       denoiser_(options.denoise),
       filter_(own.oriented_filter),
       graph_(own.graph),
@@ -156,11 +157,21 @@ Status RobustPipeline::find_edge_pixels(ParallelRunner& runner, Detection& found
   return filter_.run(even_, noise_.unit_counts, noise_.noisiness, runner)
       .map([&](const OrientedFilterResult& pixels) {
         pixels_ = pixels;
-        pixels_.edges = mask_invalid(pixels.edges, preprocessor_.valid(), masked_);
+        pixels_.edges = mask_invalid(pixels.edges, find_clear(), masked_);
         found.kernel_px = pixels.kernel;
         found.threshold_low = filter_options_.low;
         found.threshold_high = filter_options_.high;
       });
+}
+
+ImageView<const std::uint8_t> RobustPipeline::find_clear() {
+  clear_.resize(denoised_.width(), denoised_.height());
+  clear_view_ = {};
+  if (!preprocessor_.valid().empty()) {
+    keep_clear_of_invalid(preprocessor_.valid(), clear_);
+    clear_view_ = clear_;
+  }
+  return clear_view_;
 }
 
 // Gaps of contours that are too weak to be kept are not worth closing.
@@ -171,13 +182,13 @@ Status RobustPipeline::close_gaps() {
     const double score = saliency(traced_.contours.pixels(contour), pixels_.suppressed_response);
     eligible_.push_back(score >= options_.selection.min_score ? 1 : 0);
   }
-  return gap_closer_.run(traced_, even_, eligible_, linked_);
+  return gap_closer_.run(traced_, even_, eligible_, linked_, clear_view_);
 }
 
 // On the counts before denoising: a denoiser can invent an edge, the frame itself confirms it.
 void RobustPipeline::test_edges(Detection& found) {
   const NoiseModel& noise = noise_.noisiness > 0 ? found.corrections.noise_model : no_noise_;
-  significance_.run(counts_, noise, pixels_, found.edges);
+  significance_.run(counts_, noise, preprocessor_.valid(), pixels_, found.edges);
 }
 
 Status RobustPipeline::select(Detection& found) {

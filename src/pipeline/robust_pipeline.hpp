@@ -54,8 +54,8 @@ class RobustPipeline final : public Pipeline {
   [[nodiscard]] std::size_t memory_bytes() const override {
     return memory_of(preprocessor_, denoiser_, filter_, graph_, gap_closer_, corner_finder_,
                      scorer_, significance_, selector_, budgets_, spans_, denoised_, levels_,
-                     evened_, masked_, traced_.contours.points, traced_.contours.items, eligible_,
-                     linked_.contours.points, linked_.contours.items, linked_.links,
+                     evened_, clear_, masked_, traced_.contours.points, traced_.contours.items,
+                     eligible_, linked_.contours.points, linked_.contours.items, linked_.links,
                      corners_.indices, corners_.ranges);
   }
 
@@ -66,6 +66,7 @@ class RobustPipeline final : public Pipeline {
   Status denoise(ParallelRunner& runner, Detection& found);
   [[nodiscard]] ImageView<const float> even_out(const NoiseLevelMap& map);
   Status find_edge_pixels(ParallelRunner& runner, Detection& found);
+  [[nodiscard]] ImageView<const std::uint8_t> find_clear();
   Status close_gaps();
   void test_edges(Detection& found);
   Status select(Detection& found);
@@ -93,9 +94,10 @@ class RobustPipeline final : public Pipeline {
   Image<float> levels_, evened_;  // of the noise in a row; denoised counts over it
   ImageView<const float> even_;   // denoised counts with the same noise everywhere
   OrientedFilterResult pixels_;   // views of what filter_ holds
-  Image<std::uint8_t> masked_;
-  LinkedContours traced_;               // by the graph
-  std::vector<std::uint8_t> eligible_;  // of its contours: whose gaps are closed
+  Image<std::uint8_t> clear_, masked_;
+  ImageView<const std::uint8_t> clear_view_;  // of clear_; empty where edges can be everywhere
+  LinkedContours traced_;                     // by the graph
+  std::vector<std::uint8_t> eligible_;        // of its contours: whose gaps are closed
   LinkedContours linked_;
   CornerSet corners_;
 };

@@ -10,7 +10,9 @@
 #include "probe_motion.hpp"
 #include "probe_noise.hpp"
 #include "probe_stripes.hpp"
+#include "thermedge/stages/hole_filling.hpp"
 #include "thermedge/stages/noise.hpp"
+#include "thermedge/stages/validity.hpp"
 
 namespace thermedge {
 namespace {
@@ -93,10 +95,14 @@ struct RecordingProbe::Impl {
   detail::StripeProfiles stripes;
   NoiseEstimator estimator;
   Series series;
+  InvalidFinder invalid_finder;
+  HoleFiller hole_filler;
+  Mean given_invalid, found_invalid, dead_rows, dead_columns;
   Mean range, robust_range, frame_sigma, column_sigma, row_sigma, flicker;
   std::array<Mean, kGains.size()> clipped;
 
-  Image<std::uint16_t> previous, working;
+  Image<std::uint16_t> previous, working, filled;
+  Image<std::uint8_t> valid;
   std::vector<int> changes;
   std::vector<BadPixel> dead;
   Image<std::uint32_t> dead_frames;  // in how many frames each pixel was flagged
@@ -105,7 +111,8 @@ struct RecordingProbe::Impl {
 
   Status check(ImageView<const std::uint16_t> frame, int bits);
   void reserve(ImageView<const std::uint16_t> frame);
-  void add(ImageView<const std::uint16_t> frame);
+  void add(ImageView<const std::uint16_t> frame, ImageView<const std::uint8_t> given);
+  void fill_invalid(ImageView<const std::uint16_t> frame, ImageView<const std::uint8_t> given);
   void add_counts(ImageView<const std::uint16_t> frame);
   void add_new_frame(ImageView<const std::uint16_t> frame, double sigma_counts);
   void add_bad_pixels(ImageView<const std::uint16_t> frame, double sigma_counts);
@@ -146,16 +153,56 @@ Status RecordingProbe::Impl::check(ImageView<const std::uint16_t> frame, int bit
 void RecordingProbe::Impl::reserve(ImageView<const std::uint16_t> frame) {
   previous.resize(frame.width(), frame.height());
   working.resize(frame.width(), frame.height());
+  filled.resize(frame.width(), frame.height());
+  valid.resize(frame.width(), frame.height());
+  invalid_finder.prepare(frame.width(), frame.height());
+  hole_filler.prepare(frame.width(), frame.height());
   dead_frames.resize(frame.width(), frame.height());
   fill_pixels(dead_frames.view(), 0U);
   dead.reserve(frame.size());
   changes.reserve(frame.size());
 }
 
-void RecordingProbe::Impl::add(ImageView<const std::uint16_t> frame) {
-  if (report.frames == 0) {
-    reserve(frame);
+// The frame as the detector's front end fills it.
+void RecordingProbe::Impl::fill_invalid(ImageView<const std::uint16_t> frame,
+                                        ImageView<const std::uint8_t> given) {
+  const auto count = [&] {
+    std::int64_t number = 0;
+    for (int y = 0; y < valid.height(); ++y) {
+      number += std::count(valid.row(y), valid.row(y) + valid.width(), std::uint8_t{0});
+    }
+    return number;
+  };
+  InvalidPixels invalid;
+  copy_pixels(frame, filled.view());
+  fill_pixels(valid.view(), std::uint8_t{1});
+  if (!given.empty()) {
+    copy_pixels(given, valid.view());
+    invalid.given = count();
   }
+  if (invalid.given > 0) {
+    hole_filler.fill(filled, valid);
+  }
+  if (options.validity.find) {
+    invalid_finder.run(filled, valid, invalid);
+    invalid.found = count() - invalid.given;
+  }
+  if (invalid.found > 0) {
+    hole_filler.fill(filled, valid);
+  }
+  given_invalid.add(static_cast<double>(invalid.given));
+  found_invalid.add(static_cast<double>(invalid.found));
+  dead_rows.add(invalid.dead_rows);
+  dead_columns.add(invalid.dead_columns);
+}
+
+void RecordingProbe::Impl::add(ImageView<const std::uint16_t> frame_as_given,
+                               ImageView<const std::uint8_t> given) {
+  if (report.frames == 0) {
+    reserve(frame_as_given);
+  }
+  fill_invalid(frame_as_given, given);
+  const ImageView<const std::uint16_t> frame = filled;
   const bool is_repeat = report.frames > 0 && same_counts(frame, previous);
   add_counts(frame);
   const NoiseEstimate estimate = estimator.measure(frame);
@@ -252,6 +299,10 @@ RecordingReport RecordingProbe::Impl::finish() const {
   result.range_counts = range.value();
   result.robust_range_counts = robust_range.value();
   result.histogram = totals.histogram();
+  result.given_invalid_pixels = given_invalid.value();
+  result.found_invalid_pixels = found_invalid.value();
+  result.dead_rows = dead_rows.value();
+  result.dead_columns = dead_columns.value();
   finish_noise(result);
   finish_bad_pixels(result);
   for (std::size_t i = 0; i < kGains.size(); ++i) {
@@ -323,10 +374,17 @@ RecordingProbe::RecordingProbe(RecordingProbe&&) noexcept = default;
 RecordingProbe& RecordingProbe::operator=(RecordingProbe&&) noexcept = default;
 RecordingProbe::~RecordingProbe() = default;
 
-Status RecordingProbe::add(ImageView<const std::uint16_t> frame, int bits) {
+Status RecordingProbe::add(ImageView<const std::uint16_t> frame, int bits,
+                           ImageView<const std::uint8_t> valid) {
+  if (!valid.empty() && !same_size(frame, valid)) {
+    return failure(ErrorCode::kInvalidArgument,
+                   "validity mask of " + size_text(valid.width(), valid.height()) +
+                       " pixels for a frame of " + size_text(frame.width(), frame.height()) +
+                       "; left out");
+  }
   return impl_->check(frame, bits).and_then([&]() -> Status {
     try {
-      impl_->add(frame);
+      impl_->add(frame, valid);
     } catch (const std::bad_alloc&) {
       return failure(ErrorCode::kOutOfMemory, "not enough memory for a frame of " +
                                                   size_text(frame.width(), frame.height()));

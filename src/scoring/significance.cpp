@@ -71,7 +71,7 @@ struct SignificanceTest::Impl {
       : tuning(chosen), spread(chosen.spread, chosen.slopes, chosen.contrast) {}
 
   void prepare(int width, int height, const EdgeSet& edges);
-  void mark_busy(const OrientedFilterResult& pixels);
+  void mark_busy(const OrientedFilterResult& pixels, ImageView<const std::uint8_t> valid);
   void orient(const OrientedFilterResult& pixels, const Edge& edge, Edgels& edgels) const;
   SideSlopes slopes(ImageView<const std::uint16_t> frame, const Edgels& edgels, Range range,
                     double side);
@@ -95,15 +95,18 @@ void SignificanceTest::Impl::prepare(int width, int height, const EdgeSet& edges
   of_edgels.reserve(edges.edgels.x.capacity());
 }
 
-void SignificanceTest::Impl::mark_busy(const OrientedFilterResult& pixels) {
+void SignificanceTest::Impl::mark_busy(const OrientedFilterResult& pixels,
+                                       ImageView<const std::uint8_t> valid) {
   const int width = pixels.edges.width();
   const int height = pixels.edges.height();
   const int reach = tuning.spread.clearance_px;
   fill_pixels(busy.view(), std::uint8_t{0});
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
-      if (pixels.edges(x, y) == 0 ||
-          static_cast<double>(pixels.suppressed_response(x, y)) <= tuning.spread.sure_response) {
+      const bool is_sure =
+          pixels.edges(x, y) != 0 &&
+          static_cast<double>(pixels.suppressed_response(x, y)) > tuning.spread.sure_response;
+      if (!is_sure && (valid.empty() || valid(x, y) != 0)) {
         continue;
       }
       const int left = std::max(x - reach, 0);
@@ -236,12 +239,13 @@ std::size_t SignificanceTest::memory_bytes() const {
 }
 
 void SignificanceTest::run(ImageView<const std::uint16_t> frame, const NoiseModel& noise,
-                           const OrientedFilterResult& pixels, EdgeSet& edges) {
+                           ImageView<const std::uint8_t> valid, const OrientedFilterResult& pixels,
+                           EdgeSet& edges) {
   Impl& self = *impl_;
   const bool is_noisy = noise.level_counts > 0;
   self.prepare(frame.width(), frame.height(), edges);
   if (is_noisy) {
-    self.mark_busy(pixels);
+    self.mark_busy(pixels, valid);
     self.spread.measure(frame, self.busy, noise);
   }
   Edgels& edgels = edges.edgels;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <random>
 #include <string>
@@ -62,6 +63,35 @@ std::vector<BadPixel> reference_bad_pixels(ImageView<const std::uint16_t> frame,
       }
     }
   }
+  for (int y = 0; y + 1 < frame.height(); ++y) {
+    for (int x = 0; x + 1 < frame.width(); ++x) {
+      std::array<std::vector<int>, 3> by_distance;  // of the block, the 12 around, and those around
+      for (int j = -2; j <= 3; ++j) {
+        for (int i = -2; i <= 3; ++i) {
+          const auto distance = static_cast<std::size_t>(std::max({-i, i - 1, -j, j - 1, 0}));
+          if (frame.contains(x + i, y + j)) {
+            by_distance[distance].push_back(frame(x + i, y + j));
+          }
+        }
+      }
+      for (std::vector<int>& values : by_distance) {
+        std::sort(values.begin(), values.end());
+      }
+      const auto& [block, near, far] = by_distance;
+      const int around = (far[(far.size() - 1) / 2] + far[far.size() / 2]) / 2;
+      const int contrast = near.size() == 12 ? 0 : far.back() - far.front();
+      if (block.front() - near.back() > limit + 8 * std::max(near.back() - around, contrast) ||
+          near.front() - block.back() > limit + 8 * std::max(around - near.front(), contrast)) {
+        for (const auto& [i, j] : {std::pair{0, 0}, {1, 0}, {0, 1}, {1, 1}}) {
+          dead.push_back({x + i, y + j});
+        }
+      }
+    }
+  }
+  std::sort(dead.begin(), dead.end(), [](const BadPixel& a, const BadPixel& b) {
+    return std::pair(a.y, a.x) < std::pair(b.y, b.x);
+  });
+  dead.erase(std::unique(dead.begin(), dead.end()), dead.end());
   return dead;
 }
 
@@ -76,7 +106,9 @@ TEST(DeadPixelsReference, AgreesOnSmallSizesAndTargets) {
         for (int i = 0; i < width * height / 20; ++i) {
           const int x = static_cast<int>(random() % static_cast<unsigned>(width));
           const int y = static_cast<int>(random() % static_cast<unsigned>(height));
-          frame.view()(x, y) = static_cast<std::uint16_t>(random() % 65536);
+          const int side = random() % 4 == 0 && x + 1 < width && y + 1 < height ? 2 : 1;
+          const auto value = static_cast<std::uint16_t>(random() % 65536);
+          fill_pixels(frame.view().crop(x, y, side, side), value);
         }
         const auto expected = reference_bad_pixels(frame.view(), kSigma, 6);
         EXPECT_EQ(correct(frame.view()), expected) << width << "x" << height;
@@ -121,6 +153,17 @@ TEST(DeadPixels, FindsPairsThatTouch) {
   }
 }
 
+// What resampling by half a pixel makes of a single dead pixel.
+TEST(DeadPixels, FindsBlocksOfFour) {
+  for (const int value : {3000 - 750, 3000 + 3300, 3000 + 200}) {
+    expect_corrected({{20, 10}, {21, 10}, {20, 11}, {21, 11}}, {value});
+  }
+  for (const int value : {0, 65535}) {  // on the border
+    expect_corrected({{0, 10}, {1, 10}, {0, 11}, {1, 11}}, {value});
+    expect_corrected({{38, 28}, {39, 28}, {38, 29}, {39, 29}}, {value});
+  }
+}
+
 TEST(DeadPixels, TakesTheMedianOfGoodNeighbours) {
   Image<std::uint16_t> frame(7, 7);
   fill_pixels(frame.view(), std::uint16_t{500});
@@ -149,10 +192,11 @@ TEST(DeadPixels, SparesSmallHotObjects) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> uniform(0, 1);
   for (int repeat = 0; repeat < 3000; ++repeat) {
-    const double blur_px = 0.75 + uniform(random);
+    const double blur_px = repeat % 3 == 0 ? 0.75 : 0.75 + uniform(random);
     const double height = 20 * std::pow(1000, uniform(random)) * (uniform(random) < 0.5 ? -1 : 1);
-    const double x0 = uniform(random) * 20;
-    const double y0 = uniform(random) * 20;
+    const bool is_between_four = repeat % 2 == 0;
+    const double x0 = is_between_four ? 0.5 + repeat % 20 : uniform(random) * 20;
+    const double y0 = is_between_four ? 0.5 + repeat / 20 % 20 : uniform(random) * 20;
     Image<std::uint16_t> frame =
         noise_image<std::uint16_t>(21, 21, 30000, kSigma, static_cast<unsigned>(repeat));
     for (int y = 0; y < 21; ++y) {

@@ -137,7 +137,8 @@ Counts render(std::string name, double sigma_counts) {
   return std::move(frame->counts);
 }
 
-// Noise of a hundredth of the range, of a tenth, and none; scenes with and without loops.
+// Noise of a hundredth of the range, of a tenth, and none; scenes with and without loops; pixels
+// that are no measurement.
 const std::vector<Counts>& frames() {
   static const std::vector<Counts> all = [] {
     std::vector<Counts> made;
@@ -145,6 +146,11 @@ const std::vector<Counts>& frames() {
     made.push_back(render("desk", 200));
     made.push_back(render("office", 0));
     made.push_back(render("road", 20));
+    // With a black corner.
+    made.push_back(render("desk", 20));
+    for (int y = 0; y < 40; ++y) {
+      std::fill_n(made.back().row(y), 60 - y, std::uint16_t{0});
+    }
     return made;
   }();
   return all;

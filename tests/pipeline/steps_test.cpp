@@ -17,9 +17,9 @@ using test::random_map;
 using test::same_pixels;
 using test::StridedImage;
 
-TEST(MaskInvalid, TakesOffWhatLiesWithinTwoPixelsOfAnInvalidOne) {
+TEST(MaskInvalid, TakesOffWhatLiesWithinThreePixelsOfAnInvalidOne) {
   for (const auto& [width, height] : {std::pair{1, 1}, {1, 9}, {4, 3}, {33, 21}}) {
-    for (const double density : {0.0, 0.03, 1.0}) {
+    for (const double density : {0.0, 0.03, 0.6, 1.0}) {
       StridedImage<std::uint8_t> edges(width, height);
       copy_pixels(random_map(width, height, 0.7, 121).view(), edges.view());
       const auto bad = random_map(width, height, density, 122);
@@ -32,14 +32,16 @@ TEST(MaskInvalid, TakesOffWhatLiesWithinTwoPixelsOfAnInvalidOne) {
           for (int v = 0; v < height; ++v) {
             for (int u = 0; u < width; ++u) {
               near_bad =
-                  near_bad || (bad(u, v) != 0 && std::abs(u - x) <= 2 && std::abs(v - y) <= 2);
+                  near_bad || (bad(u, v) != 0 && std::abs(u - x) <= 3 && std::abs(v - y) <= 3);
             }
           }
           expected(x, y) = near_bad ? 0 : edges.view()(x, y);
         }
       }
+      Image<std::uint8_t> clear;
       Image<std::uint8_t> masked;
-      const auto result = mask_invalid(edges.view(), valid.view(), masked);
+      keep_clear_of_invalid(valid.view(), clear);
+      const auto result = mask_invalid(edges.view(), clear, masked);
       EXPECT_TRUE(same_pixels<std::uint8_t>(result, expected)) << width << "x" << height;
       EXPECT_TRUE(edges.intact());
     }
@@ -51,6 +53,34 @@ TEST(MaskInvalid, WithoutAMaskIsTheMapItself) {
   Image<std::uint8_t> masked;
   EXPECT_EQ(mask_invalid(edges.view(), {}, masked).data(), edges.view().data());
   EXPECT_TRUE(masked.empty());
+}
+
+// Three edges of four points in a frame whose first five columns are no measurement.
+TEST(MarkCutEnds, NotesTheEndsOfOpenEdgesNearInvalidPixels) {
+  EdgeSet edges;
+  edges.edgels.resize(12);
+  edges.edges.resize(3);
+  for (std::uint32_t i = 0; i < 12; ++i) {
+    edges.edges[i / 4].edgels = {i / 4 * 4, 4};
+    edges.edgels.x[i] = (i / 4 == 0 ? 9.4F : 9.5F) + static_cast<float>(i % 4);
+    edges.edgels.y[i] = static_cast<float>(i / 4);
+  }
+  edges.edges[2].closed = true;
+  edges.edgels.x[8] = 5;
+  std::swap(edges.edgels.x[4], edges.edgels.x[7]);
+  edges.edgels.x[7] = 6;
+  Image<std::uint8_t> valid(30, 12);
+  fill_pixels(valid.view(), std::uint8_t{1});
+  mark_cut_ends({}, edges);
+  mark_cut_ends(valid, edges);
+  EXPECT_FALSE(edges.edges[0].begins_at_invalid);
+  fill_pixels(valid.view().crop(0, 0, 5, 12), std::uint8_t{0});
+  mark_cut_ends(valid, edges);
+  EXPECT_TRUE(edges.edges[0].begins_at_invalid) << "column 9 is 5 px from column 4";
+  EXPECT_FALSE(edges.edges[0].ends_at_invalid);
+  EXPECT_FALSE(edges.edges[1].begins_at_invalid);
+  EXPECT_TRUE(edges.edges[1].ends_at_invalid);
+  EXPECT_FALSE(edges.edges[2].begins_at_invalid || edges.edges[2].ends_at_invalid) << "closed";
 }
 
 TEST(RoundToLevels, RoundsHalvesUpAndClamps) {

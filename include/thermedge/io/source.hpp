@@ -22,11 +22,14 @@ struct SourceFrame {
   std::string source;  // the file as the user named it; "x.tif[7]" where it holds several frames
   std::string stem;    // name for results: "x"; "x_0007" where the file holds several
   std::int64_t index = 0;  // 0, 1, 2 ... within the file
+  // As Frame::valid; no file holds it, so sources leave it as it is: empty, or what was set here.
+  Image<std::uint8_t> valid;
 
   // As the detector takes it; valid as long as this lives and is not read into again.
   [[nodiscard]] Frame frame() const {
     Frame frame(counts, bits);
     frame.index = index;
+    frame.valid = valid;
     return frame;
   }
 };

@@ -15,12 +15,14 @@
 #include "thermedge/radiometry/planck.hpp"
 #include "thermedge/result.hpp"
 #include "thermedge/stages/bad_pixels.hpp"
+#include "thermedge/stages/validity.hpp"
 
 namespace thermedge {
 
 struct ProbeOptions {
   double degc_per_count = kDegcPerCount;  // worth of a count, degC, > 0 (paper section 2.3)
   std::optional<CountsModel> camera;      // instead of it, where known: tells temperatures too
+  ValidityOptions validity;               // whether pixels that are no measurement are looked for
   BadPixelOptions bad_pixels;             // the rule for bad pixels
   Preset preset = Preset::kRobust;        // whose options are suggested
 };
@@ -112,6 +114,11 @@ struct RecordingReport {
   double column_sigma_counts = 0, row_sigma_counts = 0;
   std::vector<double> column_profile_counts, row_profile_counts;
 
+  // Pixels that are no measurement, mean over the frames: given with them, and found. Everything
+  // else is measured with these filled from those around them.
+  double given_invalid_pixels = 0, found_invalid_pixels = 0;
+  double dead_rows = 0, dead_columns = 0;  // a frame, mean; replaced
+
   // Dead pixels: flagged in at least half of 3 or more different frames; and others, per frame.
   std::optional<std::int64_t> bad_pixels;
   double passing_bad_pixels = 0;
@@ -171,7 +178,9 @@ class RecordingProbe {
 
   // `bits`: 8 or 16, of a pixel in the file. Errors, after which the recording goes on without the
   // frame: empty frame, another size or number of bits than the first, out of memory.
-  [[nodiscard]] Status add(ImageView<const std::uint16_t> frame, int bits = 16);
+  // `valid` as Frame::valid.
+  [[nodiscard]] Status add(ImageView<const std::uint16_t> frame, int bits = 16,
+                           ImageView<const std::uint8_t> valid = {});
 
   // Of the frames so far; more may follow.
   [[nodiscard]] RecordingReport report() const;

@@ -67,10 +67,12 @@ class GapCloser {
       : options_(options), tuning_(tuning) {}
 
   // `frame`: what the edges were found on. `eligible`, one for each curve: 0 where it is not worth
-  // a bridge. `bridged` is cleared first; links of type 2 go over into it. Errors: an option out of
+  // a bridge. `bridged` is cleared first; links of type 2 go over into it. `valid`, where not
+  // empty: 0 where no edge can be, so that no bridge leads over it either. Errors: an option out of
   // range.
   [[nodiscard]] Status run(const LinkedContours& curves, ImageView<const float> frame,
-                           std::span<const std::uint8_t> eligible, LinkedContours& bridged);
+                           std::span<const std::uint8_t> eligible, LinkedContours& bridged,
+                           ImageView<const std::uint8_t> valid = {});
 
   // Memory held, bytes.
   [[nodiscard]] std::size_t memory_bytes() const {
@@ -116,6 +118,7 @@ class GapCloser {
   void meet_end(const ContourSet& contours, ImageView<const float> frame, const Tip& tip,
                 double least_cosine, Bridge& bridge) const;
   [[nodiscard]] std::optional<Pixel> corner_of(const Tip& a, const Tip& b) const;
+  [[nodiscard]] bool leads_over_invalid(const Tip& tip, Pixel to) const;
   [[nodiscard]] bool step_goes_on(const Tip& tip, Pixel to, ImageView<const float> frame) const;
   [[nodiscard]] std::optional<Bridge> find_bridge(const ContourSet& contours, std::int32_t end,
                                                   ImageView<const float> frame) const;
@@ -128,8 +131,9 @@ class GapCloser {
   std::vector<Pixel> window_;    // offsets within gap_px, nearest first
   std::vector<Offset> offsets_;  // the same
   std::vector<Bridge> bridges_;
-  Image<std::int32_t> owner_;  // curve of each pixel, -1: none
-  Image<std::int32_t> place_;  // of the pixel within its curve
+  Image<std::int32_t> owner_;            // curve of each pixel, -1: none
+  Image<std::int32_t> place_;            // of the pixel within its curve
+  ImageView<const std::uint8_t> valid_;  // of this run
 };
 
 }  // namespace thermedge

@@ -10,14 +10,17 @@
 #include "thermedge/noise_model.hpp"
 #include "thermedge/parallel_runner.hpp"
 #include "thermedge/stages/bad_pixels.hpp"
+#include "thermedge/stages/hole_filling.hpp"
 #include "thermedge/stages/noise.hpp"
 #include "thermedge/stages/noise_model_estimator.hpp"
 #include "thermedge/stages/stripes.hpp"
+#include "thermedge/stages/validity.hpp"
 
 namespace thermedge {
 
 // What was found about a frame on the way to its corrected counts.
 struct Corrections {
+  InvalidPixels invalid;
   NoiseEstimate noise;     // of the pixels, by a high-pass, and of stripes
   NoiseModel noise_model;  // at the scale of edges; of the pixels where it was not asked for
   std::vector<BadPixel> bad_pixels;  // that were replaced
@@ -27,8 +30,9 @@ struct Corrections {
   double offset = 0;
 };
 
-// Frame -> corrected counts: float values become counts, pixels that are no measurement take the
-// value of a neighbour, noise is measured, bad pixels are replaced, stripes removed.
+// Frame -> corrected counts: float values become counts, pixels that are no measurement, given or
+// found (InvalidFinder), are filled smoothly (HoleFiller), noise is measured, bad pixels are
+// replaced, stripes removed.
 //
 // Float frames whose pixels are whole numbers from 0 to 65535 are counts already. In others the
 // 0.1st to 99.9th percentile is spread over 8192 to 16384 counts by a power of two, with room for
@@ -40,8 +44,12 @@ struct Corrections {
 class Preprocessor {
  public:
   // `model_noise`: measure the whole noise model, not the noise of the pixels alone.
-  Preprocessor(const BadPixelOptions& bad_pixels, const StripeOptions& stripes, bool model_noise)
-      : bad_pixel_options_(bad_pixels), stripe_options_(stripes), model_noise_(model_noise) {}
+  Preprocessor(const BadPixelOptions& bad_pixels, const StripeOptions& stripes,
+               const ValidityOptions& validity, bool model_noise)
+      : bad_pixel_options_(bad_pixels),
+        stripe_options_(stripes),
+        validity_options_(validity),
+        model_noise_(model_noise) {}
 
   // The corrected counts, valid until the next run. `frame` is not empty.
   ImageView<const std::uint16_t> run(const Frame& frame, ParallelRunner& runner,
@@ -52,8 +60,8 @@ class Preprocessor {
 
   // Memory held, bytes.
   [[nodiscard]] std::size_t memory_bytes() const {
-    return detail::memory_of(noise_estimator_, model_estimator_, stripe_finder_, corrected_, valid_,
-                             sample_);
+    return detail::memory_of(noise_estimator_, model_estimator_, stripe_finder_, invalid_finder_,
+                             hole_filler_, corrected_, valid_, sample_);
   }
 
  private:
@@ -61,15 +69,19 @@ class Preprocessor {
   void load(const Frame& frame, Corrections& corrections);
   void load_values(ImageView<const float> values, Corrections& corrections);
   void choose_scale(ImageView<const float> values, Corrections& corrections);
-  void note_validity(const Frame& frame);
-  void fill_invalid();
+  void note_validity(const Frame& frame, InvalidPixels& invalid);
+  void fill_invalid(InvalidPixels& invalid);
+  [[nodiscard]] std::int64_t count_invalid() const;
 
   BadPixelOptions bad_pixel_options_;
   StripeOptions stripe_options_;
+  ValidityOptions validity_options_;
   bool model_noise_;
+  InvalidFinder invalid_finder_;
   NoiseEstimator noise_estimator_;
   NoiseModelEstimator model_estimator_;
   StripeFinder stripe_finder_;
+  HoleFiller hole_filler_;
   Image<std::uint16_t> corrected_;
   Image<std::uint8_t> valid_;
   ImageView<const std::uint8_t> valid_view_;

@@ -116,10 +116,11 @@ class SignificanceTest {
   SignificanceTest& operator=(SignificanceTest&&) noexcept;
   ~SignificanceTest();
 
-  // `frame`: corrected counts; `noise`: of it; `pixels`: what the edges were made of. A level of 0
+  // `frame`: corrected counts; `noise`: of it; `valid`: nonzero where it is a measurement, empty:
+  // everywhere; `pixels`: what the edges were made of. A level of 0
   // is no noise: every edge with a contrast is certain then (z = infinity, log10_nfa = -infinity).
   void run(ImageView<const std::uint16_t> frame, const NoiseModel& noise,
-           const OrientedFilterResult& pixels, EdgeSet& edges);
+           ImageView<const std::uint8_t> valid, const OrientedFilterResult& pixels, EdgeSet& edges);
 
   // Memory held, bytes.
   [[nodiscard]] std::size_t memory_bytes() const;

@@ -29,6 +29,8 @@ Json to_json(const EdgeSet& set, const Edge& edge) {
           {"z", rounded(edge.z)},
           {"log10_nfa", rounded(edge.log10_nfa)},
           {"closed", edge.closed},
+          {"begins_at_invalid", edge.begins_at_invalid},
+          {"ends_at_invalid", edge.ends_at_invalid},
           {"length_px", rounded(edge.length_px)},
           {"contrast_counts", rounded(edge.contrast_counts)},
           {"corners", set.corners_of(edge)},
@@ -102,6 +104,13 @@ StatusCounts count_statuses(const EdgeSet& set) {
   return counts;
 }
 
+Json to_json(const InvalidPixels& invalid) {
+  return {{"given", invalid.given},
+          {"found", invalid.found},
+          {"dead_rows", invalid.dead_rows},
+          {"dead_columns", invalid.dead_columns}};
+}
+
 Json to_json(const StatusCounts& counts) {
   return {{"weak", counts.weak},
           {"insignificant", counts.insignificant},
@@ -132,6 +141,7 @@ std::string edges_to_json(const Detection& detection, const std::string& source)
                            {"measured", measured(detection)},
                            {"edges_found", set.edges.size()},
                            {"edges_dropped", to_json(count_statuses(set))},
+                           {"invalid_pixels", to_json(detection.corrections.invalid)},
                            {"bad_pixels", detection.corrections.bad_pixels.size()},
                            {"threshold_low", rounded(detection.threshold_low)},
                            {"threshold_high", rounded(detection.threshold_high)}}}};

@@ -47,10 +47,12 @@ class ComparisonSheet {
   ComparisonSheet& operator=(ComparisonSheet&&) noexcept;
   ~ComparisonSheet();
 
-  // `frame` and `bits` as for Detector::detect; `source` names the frame on the sheet.
+  // `frame`, `bits` and `valid` (Frame::valid) as for Detector::detect; `source` names the frame on
+  // the sheet.
   // Errors: those of Detector::detect and of the denoiser.
   [[nodiscard]] Result<Comparison> draw(ImageView<const std::uint16_t> frame, int bits,
-                                        const std::string& source);
+                                        const std::string& source,
+                                        ImageView<const std::uint8_t> valid = {});
 
  private:
   struct Impl;

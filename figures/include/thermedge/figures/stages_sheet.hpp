@@ -36,10 +36,12 @@ class StagesSheet {
   StagesSheet& operator=(StagesSheet&&) noexcept;
   ~StagesSheet();
 
-  // `frame` and `bits` as for Detector::detect; `source` names the frame on the sheet.
+  // `frame`, `bits` and `valid` (Frame::valid) as for Detector::detect; `source` names the frame on
+  // the sheet.
   // Errors: those of Detector::detect.
   [[nodiscard]] Result<StagesFigures> draw(ImageView<const std::uint16_t> frame, int bits,
-                                           const std::string& source);
+                                           const std::string& source,
+                                           ImageView<const std::uint8_t> valid = {});
 
  private:
   struct Impl;
