@@ -45,7 +45,7 @@ class NoiseLevelMap {
     double share = 0;
   };
   static void find_places(int pixels, int nodes, std::vector<Place>& places);
-  [[nodiscard]] double between(const Place& across, const Place& down) const;
+  [[nodiscard]] double on_column(int column, const Place& down) const;
 
   Image<float> nodes_;
   std::vector<Place> across_, down_;  // of each column and row of the frame

@@ -29,25 +29,32 @@ void NoiseLevelMap::find_places(int pixels, int nodes, std::vector<Place>& place
   }
 }
 
-double NoiseLevelMap::between(const Place& across, const Place& down) const {
-  const auto on_row = [&](int row) {
-    const double left = nodes_(across.node, row);
-    return left + across.share * (nodes_(across.node + 1, row) - left);
-  };
-  const double upper = on_row(down.node);
-  return upper + down.share * (on_row(down.node + 1) - upper);
+// Of a column of nodes, at a row of the frame.
+double NoiseLevelMap::on_column(int column, const Place& down) const {
+  const double upper = nodes_(column, down.node);
+  return upper + down.share * (nodes_(column, down.node + 1) - upper);
 }
 
 double NoiseLevelMap::at(int x, int y) const {
-  return is_even()
-             ? 1
-             : between(across_[static_cast<std::size_t>(x)], down_[static_cast<std::size_t>(y)]);
+  if (is_even()) {
+    return 1;
+  }
+  const Place& across = across_[static_cast<std::size_t>(x)];
+  const Place& down = down_[static_cast<std::size_t>(y)];
+  const double left = on_column(across.node, down);
+  return left + across.share * (on_column(across.node + 1, down) - left);
 }
 
 void NoiseLevelMap::row(int y, float* out) const {
   const Place& down = down_[static_cast<std::size_t>(y)];
-  std::transform(across_.begin(), across_.end(), out,
-                 [&](const Place& across) { return static_cast<float>(between(across, down)); });
+  std::size_t x = 0;
+  for (int column = 0; column + 1 < nodes_.width(); ++column) {
+    const double left = on_column(column, down);
+    const double step = on_column(column + 1, down) - left;
+    for (; x < across_.size() && across_[x].node == column; ++x) {
+      out[x] = static_cast<float>(left + across_[x].share * step);
+    }
+  }
 }
 
 }  // namespace thermedge

@@ -24,6 +24,12 @@ std::size_t orientation_of(float nx, float ny) {
                                            : steps;
 }
 
+// The nearest whole number, of those half way the larger one; for values from -kOffset on.
+int nearest(double value) {
+  constexpr int kOffset = 1 << 20;
+  return static_cast<int>(value + (kOffset + 0.5)) - kOffset;
+}
+
 }  // namespace
 
 ContrastSpread::ContrastSpread(const ContrastSpreadTuning& tuning, const SideSlopeTuning& slopes,
@@ -97,10 +103,8 @@ void ContrastSpread::lay_lines(ImageView<const std::uint16_t> frame,
     const double aside = (k + 0.5) * step;
     for (int i = -reach; i < reach; ++i) {
       const double on = i + 0.5;
-      const auto x =
-          static_cast<int>(std::floor(middle_x + aside * normal.x - on * normal.y + 0.5));
-      const auto y =
-          static_cast<int>(std::floor(middle_y + aside * normal.y + on * normal.x + 0.5));
+      const int x = nearest(middle_x + aside * normal.x - on * normal.y);
+      const int y = nearest(middle_y + aside * normal.y + on * normal.x);
       if (x >= margin && y >= margin && x < frame.width() - margin && y < frame.height() - margin &&
           busy(x, y) == 0) {
         line_.x.push_back(static_cast<float>(x));
