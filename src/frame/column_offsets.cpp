@@ -4,8 +4,11 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <iterator>
+#include <numbers>
 
 #include "banded_cholesky.hpp"
+#include "column_shifts_simd.hpp"
 #include "lag_sums_simd.hpp"
 #include "order_statistics.hpp"
 
@@ -54,14 +57,68 @@ void ColumnOffsets::prepare(int columns, int rows) {
   profile_.resize(n);
   offsets_.assign(n, 0.0);
   background_.assign(n, 0.0);
+  rest_.assign(n, 0.0);
+  trend_.assign(n, 0.0);
+  trend_fit_.prepare(columns);
   sorted_.reserve(n);
   slopes_.reserve(n);
   cumulated_.resize(n + 1);
   clearness_.resize(n);
+  const std::size_t whole_vectors = n + Image<std::uint16_t>::kAlignmentBytes;
+  medians_.resize(whole_vectors);
+  down_.resize(whole_vectors);
+  up_.resize(whole_vectors);
+  shifts_.assign(n, 0);
+  next_shifts_.assign(n, 0);
   jumps_.reserve(tuning_.most_jumps);
   reach_left_.resize(n);
   reach_right_.resize(n);
   segment_.resize(n);
+}
+
+// Makes shifts_ the given ones, of `counts` too.
+void ColumnOffsets::shift(ImageView<std::uint16_t> counts, std::span<const int> shifts) {
+  constexpr int kMost = 65535;
+  for (int x = 0; x < columns_; ++x) {
+    const int change = shifts[index(x)] - shifts_[index(x)];
+    down_[index(x)] = static_cast<std::uint16_t>(std::clamp(change, 0, kMost));
+    up_[index(x)] = static_cast<std::uint16_t>(std::clamp(-change, 0, kMost));
+    shifts_[index(x)] = shifts[index(x)];
+  }
+  shift_columns(down_.data(), up_.data(), counts);
+}
+
+void ColumnOffsets::start(ImageView<std::uint16_t> counts, double sigma) {
+  const int unit = static_cast<int>(
+      std::clamp(tuning_.start_unit_sigmas * sigma, 1.0, 1.0 * kLargestMedianUnit));
+  neighbour_medians(counts, tuning_.start_row_step, unit, medians_.data());
+  sorted_.clear();
+  std::transform(medians_.begin(), medians_.begin() + columns_ - 1, std::back_inserter(sorted_),
+                 [](std::int16_t median) { return std::abs(1.0 * median); });
+  constexpr double kSigmaOverMad = 1.4826;
+  const double deviation = kSigmaOverMad * nth_value(std::span(sorted_), sorted_.size() / 2);
+  deviation_ = 0;
+  if (deviation < tuning_.start_deviation_sigmas * sigma) {
+    return;
+  }
+  deviation_ = deviation / (std::numbers::sqrt2 * sigma);
+  next_shifts_[0] = 0;
+  for (int x = 0; x + 1 < columns_; ++x) {
+    const int median = medians_[index(x)];
+    const bool is_edge = std::abs(median) > tuning_.start_edge_deviations * deviation;
+    next_shifts_[index(x + 1)] = next_shifts_[index(x)] + (is_edge ? 0 : median);
+  }
+  shift(counts, next_shifts_);
+}
+
+void ColumnOffsets::take_off(ImageView<std::uint16_t> counts, double sigma) {
+  std::transform(background_.begin(), background_.end(), next_shifts_.begin(), [=](double offset) {
+    const double in_counts = offset * sigma;
+    return static_cast<int>(in_counts + (in_counts < 0 ? -0.5 : 0.5));
+  });
+  shift(counts, next_shifts_);
+  std::transform(background_.begin(), background_.end(), shifts_.begin(), rest_.begin(),
+                 [=](double background, int shifted) { return background - shifted / sigma; });
 }
 
 void ColumnOffsets::add_up(ImageView<const std::uint16_t> counts,
@@ -82,49 +139,72 @@ void ColumnOffsets::add_up(ImageView<const std::uint16_t> counts,
   }
 }
 
+// How far stripes of deviation_ exceed usual ones; at least 1.
+double ColumnOffsets::strength() const {
+  return std::max(deviation_ / tuning_.usual_stripes_sigmas, 1.0);
+}
+
 // The mean difference of each pair of columns. Neighbours without enough rows between which there
-// is no edge are taken for equal, so that the chain does not break.
+// is no edge are taken for equal, so that the chain does not break; the less so the stronger the
+// stripes are.
 void ColumnOffsets::find_pairs(double sigma) {
+  const double per_sigma = 1 / sigma;
+  const double per_row = 1.0 / rows_;
+  const double least = tuning_.least_pair_share * rows_;
+  const double variances = strength() * strength();
+  const double weight_of_equals = 1 / (variances * variances);
   for (int i = 0; i < kNumberOfLags; ++i) {
     const std::int32_t* sums = sums_.row(i);
     const std::int32_t* numbers = numbers_.row(i);
     double* difference = differences(i);
     double* weight = weights(i);
-    const double weight_of_none = i == 0 ? 1 : 0;
-    const double rows = rows_;
-    const double least = tuning_.least_pair_share * rows;
-    for (int x = 0; x + kLags[index(i)] < columns_; ++x) {
+    const double weight_of_none = i == 0 ? weight_of_equals : 0;
+    const int lag = kLags[index(i)];
+    for (int x = 0; x + lag < columns_; ++x) {
       const double number = numbers[x];
       const bool enough = number >= least;
-      const double mean = sums[x] / (sigma * (enough ? number : 1.0));
+      const double shifted = shifts_[index(x + lag)] - shifts_[index(x)];
+      const double mean = (sums[x] / (enough ? number : 1.0) + shifted) * per_sigma;
       difference[x] = enough ? mean : 0;
-      weight[x] = enough ? number / rows : weight_of_none;
+      weight[x] = enough ? number * per_row : weight_of_none;
     }
   }
 }
 
-// What a smooth scene makes of the differences, such as that of a lens darker towards the corners:
-// a slope that changes evenly from side to side, seen over the longest lag.
-Line ColumnOffsets::remove_slope() {
+// The slope of a smooth scene, such as that of a lens darker towards the corners, seen over the
+// longest lag.
+SmoothSlope ColumnOffsets::find_slope() {
   constexpr int kLongest = kNumberOfLags - 1;
-  const auto middle_of = [](int x, int lag) { return x + 0.5 * lag; };
   slopes_.clear();
-  for (int x = 0; x + kLargestLag < columns_; ++x) {
+  const auto add = [&](int x) {
     const double weight = weights(kLongest)[x];
     if (weight > 0) {
-      slopes_.push_back(
-          {middle_of(x, kLargestLag), differences(kLongest)[x] / kLargestLag, weight});
+      slopes_.push_back({x + 0.5 * kLargestLag, differences(kLongest)[x] / kLargestLag, weight});
+    }
+  };
+  const int last = columns_ - 1 - kLargestLag;
+  for (int x = 0; 2 * x <= last; x += tuning_.slope_step_px) {  // the same from either side
+    add(x);
+    if (2 * x < last) {
+      add(last - x);
     }
   }
-  const Line slope = robust_line(slopes_, sorted_);
+  const double half = 0.5 * (columns_ - 1);
+  return robust_slope(slopes_, half, half, sorted_);
+}
+
+// Takes the trend off the differences of the pairs that were seen.
+void ColumnOffsets::remove_trend() {
+  const double least = tuning_.least_pair_share * rows_;
   for (int i = 0; i < kNumberOfLags; ++i) {
     const int lag = kLags[index(i)];
     double* difference = differences(i);
+    const std::int32_t* numbers = numbers_.row(i);
     for (int x = 0; x + lag < columns_; ++x) {
-      difference[x] -= lag * slope.at(middle_of(x, lag));
+      const double change = trend_[index(x + lag)] - trend_[index(x)];
+      difference[x] -= numbers[x] >= least ? change : 0;
     }
   }
-  return slope;
 }
 
 void ColumnOffsets::number_segments(std::span<const int> jumps) {
@@ -257,7 +337,7 @@ double ColumnOffsets::jump_z(int x, double deviation) const {
 double ColumnOffsets::variance_of_noise() {
   double inverse_weights = 0;
   for (int x = 0; x + 1 < columns_; ++x) {
-    inverse_weights += 1 / weights(0)[x];
+    inverse_weights += 1 / std::max(weights(0)[x], tuning_.least_pair_share);
   }
   return inverse_weights / (1.0 * rows_ * (columns_ - 1));
 }
@@ -269,27 +349,61 @@ bool ColumnOffsets::measure(ImageView<const std::uint16_t> counts,
   add_up(counts, reach, limit);
   std::fill(offsets_.begin(), offsets_.end(), 0.0);
   find_pairs(sigma);
-  const Line slope = remove_slope();
-  const double middle = 0.5 * (columns_ - 1);
-  for (int x = 0; x < columns_; ++x) {  // its integral, 0 in the middle
-    background_[index(x)] = (x - middle) * slope.at(0.5 * (x + middle));
-  }
   solve(tuning_.no_prior, {}, profile_);
   const double deviation = deviation_ = white_deviation(profile_);
+  const bool on_dome = find_steep_trend();
   const double of_noise = variance_of_noise();
   if (deviation * deviation < tuning_.least_variance_ratio * of_noise) {
+    std::copy(trend_.begin(), trend_.end(), background_.begin());
     return false;
   }
-  find_jumps(deviation);
-  const double strength = std::max(deviation / tuning_.usual_stripes_sigmas, 1.0);
-  solve(tuning_.prior * strength * strength, jumps_, offsets_);
+  find_jumps_and_trend(on_dome);
+  remove_trend();
+  solve(tuning_.prior * strength() * strength(), jumps_, offsets_);
   const double trust = 1 - of_noise / (deviation * deviation);
   for (double& offset : offsets_) {
     offset *= trust;
   }
-  std::transform(offsets_.begin(), offsets_.end(), background_.begin(), background_.begin(),
+  std::transform(offsets_.begin(), offsets_.end(), trend_.begin(), background_.begin(),
                  std::plus<>());
   return true;
+}
+
+// The trend from slopes, which jumps do not disturb, as far as it exceeds what stripes make of it.
+// Returns whether it is that of a dome.
+bool ColumnOffsets::find_steep_trend() {
+  const SmoothSlope slope = find_slope();
+  double squares = 0;
+  for (int x = 0; x < columns_; ++x) {
+    const double trend = slope.trend(x);
+    trend_[index(x)] = trend;
+    squares += trend * trend;
+  }
+  const double of_stripes = tuning_.steep_trend_deviations * deviation_;
+  const double share = 1 - of_stripes * of_stripes * columns_ / squares;
+  const double factor = squares > 0 ? std::max(share, 0.0) : 0;
+  for (double& trend : trend_) {
+    trend *= factor;
+  }
+  const double of_dome = tuning_.dome_deviations * deviation_;
+  return squares > of_dome * of_dome * columns_;
+}
+
+// Jumps are looked for in the profile less the trend, and the trend between the jumps: none where
+// it does not stand out of the stripes. Twice on a dome, as some of the jumps were none but bends
+// of the first trend; elsewhere that would bend the trend into edges.
+void ColumnOffsets::find_jumps_and_trend(bool on_dome) {
+  const int rounds = on_dome ? 2 : 1;
+  for (int round = 0; round < rounds && (round == 0 || !jumps_.empty()); ++round) {
+    std::transform(profile_.begin(), profile_.end(), trend_.begin(), profile_.begin(),
+                   std::minus<>());
+    find_jumps(deviation_);
+    std::transform(profile_.begin(), profile_.end(), trend_.begin(), profile_.begin(),
+                   std::plus<>());
+    number_segments(jumps_);
+    trend_fit_.fit(profile_, segment_, deviation_, tuning_.trend_z);
+    std::copy(trend_fit_.trend().begin(), trend_fit_.trend().end(), trend_.begin());
+  }
 }
 
 }  // namespace thermedge::detail

@@ -15,6 +15,31 @@ namespace {
 
 constexpr std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
+// What brings the middle of the counts to the middle of their range, so that there is room for
+// offsets on both sides. From every eighth pixel both ways, so it is no bound.
+int room_for_offsets(ImageView<const std::uint16_t> frame) {
+  constexpr int kStep = 8;
+  constexpr int kMiddle = 32768;
+  int low = frame(0, 0);
+  int high = low;
+  for (int y = 0; y < frame.height(); y += kStep) {
+    for (int x = 0; x < frame.width(); x += kStep) {
+      low = std::min<int>(low, frame(x, y));
+      high = std::max<int>(high, frame(x, y));
+    }
+  }
+  return kMiddle - (low + high + 1) / 2;
+}
+
+// frame + level; single pixels far from all others, which wrap around, are as far from them then.
+void copy_with_level(ImageView<const std::uint16_t> frame, int level,
+                     ImageView<std::uint16_t> copy) {
+  for (int y = 0; y < frame.height(); ++y) {
+    std::transform(frame.row(y), frame.row(y) + frame.width(), copy.row(y),
+                   [=](std::uint16_t count) { return static_cast<std::uint16_t>(count + level); });
+  }
+}
+
 }  // namespace
 
 struct StripeFinder::Impl {
@@ -63,8 +88,8 @@ void StripeFinder::measure(ImageView<const std::uint16_t> frame, double sigma_co
   if (!(sigma_counts > 0)) {
     return;
   }
-  copy_pixels(frame, impl_->copy.view());
-  detail::transpose(frame, impl_->transposed.view());
+  copy_with_level(frame, room_for_offsets(frame), impl_->copy.view());
+  detail::transpose<std::uint16_t>(impl_->copy.view(), impl_->transposed.view());
   bool in_columns = false;
   bool in_rows = false;
   const auto measure_both = [&] {
@@ -78,12 +103,21 @@ void StripeFinder::measure(ImageView<const std::uint16_t> frame, double sigma_co
   };
   fill_pixels(impl_->reach.view(), detail::StripeMask::kNoEdge);
   fill_pixels(impl_->transposed_reach.view(), detail::StripeMask::kNoEdge);
+  runner.run(2, [&](int i) {
+    if (i == 0) {
+      impl_->columns.start(impl_->copy.view(), sigma_counts);
+    } else {
+      impl_->rows.start(impl_->transposed.view(), sigma_counts);
+    }
+  });
   measure_both();
   const StripeTuning& tuning = impl_->tuning;
   for (const double gradient : tuning.edge_gradients) {
     const bool weak = std::max(impl_->columns.deviation(), impl_->rows.deviation()) <
                       tuning.strong_stripes_sigmas;
-    impl_->mask.find(impl_->copy, impl_->columns.background(), impl_->rows.background(),
+    impl_->columns.take_off(impl_->copy.view(), sigma_counts);
+    impl_->rows.take_off(impl_->transposed.view(), sigma_counts);
+    impl_->mask.find(impl_->copy, impl_->columns.rest_of_background(), impl_->rows.background(),
                      sigma_counts, gradient, gradient == tuning.edge_gradients.back() && weak);
     impl_->mask.reach_right(impl_->reach);
     impl_->mask.reach_down(impl_->transposed_reach);

@@ -1,6 +1,7 @@
 // Column and row offsets: what is taken away, and what of the scene is left alone.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <numbers>
@@ -27,6 +28,7 @@ struct Scene {
   double step_sigmas = 0;    // of an edge along a column (or row)
   double share = 1;          // of the height (or width) that the edge has
   bool along_row = false;
+  double dome_sigmas = 0;  // above the corners, over the whole frame
   unsigned seed = 1;
 };
 
@@ -58,7 +60,9 @@ Rendered render(const Scene& scene) {
       const int v = scene.along_row ? y : x;
       const bool has_edge = u >= begin && u < begin + length;
       const double behind = 0.5 * std::erfc((out.edge - 0.5 - v) / std::numbers::sqrt2);
-      const double value = 3000 + 0.5 * scene.sigma * std::sin(x / 90.0 + y / 70.0) +
+      const double radius = std::hypot(2.0 * x / kWidth - 1, 2.0 * y / kHeight - 1);
+      const double value = 3000 + scene.dome_sigmas * scene.sigma * std::exp(-radius * radius) +
+                           0.5 * scene.sigma * std::sin(x / 90.0 + y / 70.0) +
                            (has_edge ? scene.step_sigmas * scene.sigma * behind : 0) +
                            out.columns[static_cast<std::size_t>(x)] +
                            out.rows[static_cast<std::size_t>(y)] + normal(random);
@@ -83,19 +87,27 @@ double at(const std::vector<float>& offsets, int i) {
 }
 
 // What is left of an offset against its neighbours; slow drifts over many columns are no stripes.
-double left_over(const std::vector<float>& found, const std::vector<double>& truth) {
+// Not near `edge`.
+double left_over(const std::vector<float>& found, const std::vector<double>& truth,
+                 int edge = -1000) {
   constexpr int kReach = 12;
+  constexpr int kNear = 30;
   const int n = static_cast<int>(truth.size());
   double squares = 0;
+  int number = 0;
   for (int i = kReach; i < n - kReach; ++i) {
+    if (std::abs(i - edge) < kNear) {
+      continue;
+    }
     const auto error = [&](int k) { return truth[static_cast<std::size_t>(k)] - at(found, k); };
     double around = 0;
     for (int k = i - kReach; k <= i + kReach; ++k) {
       around += k == i ? 0 : error(k) / (2 * kReach);
     }
     squares += std::pow(error(i) - around, 2);
+    ++number;
   }
-  return std::sqrt(squares / (n - 2 * kReach));
+  return std::sqrt(squares / number);
 }
 
 TEST(Stripes, TuningSaysFromWhatStrengthOn) {
@@ -111,7 +123,8 @@ TEST(Stripes, TuningSaysFromWhatStrengthOn) {
 }
 
 TEST(Stripes, AreRemovedToATwelfthOfTheNoise) {
-  for (const auto& [stripe, left] : {std::pair{0.15, 0.08}, {1.0 / 3, 0.08}, {1.0, 0.1}}) {
+  for (const auto& [stripe, left] :
+       {std::pair{0.15, 0.08}, {1.0 / 3, 0.08}, {1.0, 0.08}, {3.0, 0.08}}) {
     for (unsigned seed = 1; seed <= 6; ++seed) {
       Scene scene;
       scene.stripe_sigmas = stripe;
@@ -161,6 +174,100 @@ TEST(Stripes, AreNotTakenFromEdgesAlongThem) {
   }
 }
 
+// Stripes of three times the noise: a wall of ten sigma stays, and they are removed on both sides.
+TEST(Stripes, OfThreeSigmaAreToldFromAWall) {
+  for (const bool along_row : {false, true}) {
+    Scene scene;
+    scene.stripe_sigmas = 3;
+    scene.step_sigmas = 10;
+    scene.along_row = along_row;
+    EXPECT_NEAR(kept_contrast(scene), 1, 0.2) << along_row;
+    scene.step_sigmas = 100;
+    EXPECT_NEAR(kept_contrast(scene), 1, 0.02) << along_row;
+    scene.share = 0.4;
+    EXPECT_NEAR(kept_contrast(scene), 1, 0.02) << along_row;
+    for (const double share : {0.4, 0.7, 1.0}) {
+      scene.share = share;
+      const Rendered rendered = render(scene);
+      const StripeOffsets found = measured(rendered.frame);
+      const int column = along_row ? -1000 : rendered.edge;
+      const int row = along_row ? rendered.edge : -1000;
+      EXPECT_LT(left_over(found.columns, rendered.columns, column), 0.1 * scene.sigma) << share;
+      EXPECT_LT(left_over(found.rows, rendered.rows, row), 0.1 * scene.sigma) << share;
+    }
+  }
+}
+
+// The largest step that an error of the offsets makes between four of them and the next four.
+double largest_step(const std::vector<float>& found, const std::vector<double>& truth) {
+  constexpr int kSide = 4;
+  double largest = 0;
+  for (int i = kSide; i + kSide <= static_cast<int>(truth.size()); ++i) {
+    double step = 0;
+    for (int k = 0; k < kSide; ++k) {
+      const auto error = [&](int j) { return at(found, j) - truth[static_cast<std::size_t>(j)]; };
+      step += (error(i + k) - error(i - 1 - k)) / kSide;
+    }
+    largest = std::max(largest, std::abs(step));
+  }
+  return largest;
+}
+
+TEST(Stripes, OnADomeAreNoneOfItsSlope) {
+  for (unsigned seed = 1; seed <= 6; ++seed) {
+    Scene scene;
+    scene.stripe_sigmas = 1.0 / 3;
+    scene.dome_sigmas = 40;
+    scene.seed = seed;
+    const Rendered rendered = render(scene);
+    const StripeOffsets found = measured(rendered.frame);
+    EXPECT_LT(left_over(found.columns, rendered.columns), 0.12 * scene.sigma);
+    EXPECT_LT(left_over(found.rows, rendered.rows), 0.12 * scene.sigma);
+    EXPECT_LT(largest_step(found.columns, rendered.columns), 0.35 * scene.sigma);
+    EXPECT_LT(largest_step(found.rows, rendered.rows), 0.35 * scene.sigma);
+  }
+}
+
+// Counts at either end of their range leave room for the offsets on one side only.
+TEST(Stripes, AreTheSameAtEveryLevel) {
+  Scene scene;
+  scene.stripe_sigmas = 3;
+  scene.step_sigmas = 5;
+  scene.dome_sigmas = 10;
+  Rendered rendered = render(scene);
+  const StripeOffsets expected = measured(rendered.frame, scene.sigma, *make_runner(1));
+  int low = 65535;
+  int high = 0;
+  for (int y = 0; y < kHeight; ++y) {
+    const auto [least, most] =
+        std::minmax_element(rendered.frame.row(y), rendered.frame.row(y) + kWidth);
+    low = std::min<int>(low, *least);
+    high = std::max<int>(high, *most);
+  }
+  for (const int level : {-low, 65535 - high}) {
+    auto frame = rendered.frame.clone();
+    for (int y = 0; y < kHeight; ++y) {
+      for (int x = 0; x < kWidth; ++x) {
+        frame(x, y) = static_cast<std::uint16_t>(frame(x, y) + level);
+      }
+    }
+    const StripeOffsets found = measured(frame, scene.sigma, *make_runner(1));
+    EXPECT_EQ(found.columns, expected.columns);
+    EXPECT_EQ(found.rows, expected.rows);
+  }
+}
+
+TEST(Stripes, AreFoundWithANoiseThatIsAThirdOff) {
+  for (const double factor : {0.7, 1.3}) {
+    Scene scene;
+    scene.stripe_sigmas = 3;
+    const Rendered rendered = render(scene);
+    const StripeOffsets found = measured(rendered.frame, factor * scene.sigma, *make_runner(1));
+    EXPECT_LT(left_over(found.columns, rendered.columns), 0.08 * scene.sigma);
+    EXPECT_LT(left_over(found.rows, rendered.rows), 0.08 * scene.sigma);
+  }
+}
+
 TEST(Stripes, AreNotSeenWhereThereAreNone) {
   int frames_with_offsets = 0;
   for (unsigned seed = 1; seed <= 20; ++seed) {
@@ -186,40 +293,44 @@ TEST(Stripes, OfFramesTooSmallOrWithoutNoiseAreNone) {
 }
 
 TEST(Stripes, OfATransposedFrameAreExchanged) {
-  Scene scene;
-  scene.stripe_sigmas = 0.5;
-  const Rendered rendered = render(scene);
-  Image<std::uint16_t> transposed(kHeight, kWidth);
-  for (int y = 0; y < kHeight; ++y) {
-    for (int x = 0; x < kWidth; ++x) {
-      transposed(y, x) = rendered.frame(x, y);
+  for (const double stripes : {0.5, 3.0}) {
+    Scene scene;
+    scene.stripe_sigmas = stripes;
+    const Rendered rendered = render(scene);
+    Image<std::uint16_t> transposed(kHeight, kWidth);
+    for (int y = 0; y < kHeight; ++y) {
+      for (int x = 0; x < kWidth; ++x) {
+        transposed(y, x) = rendered.frame(x, y);
+      }
     }
+    const auto runner = make_runner(1);
+    const StripeOffsets found = measured(rendered.frame, 20, *runner);
+    const StripeOffsets exchanged = measured(transposed, 20, *runner);
+    EXPECT_EQ(found.columns, exchanged.rows);
+    EXPECT_EQ(found.rows, exchanged.columns);
   }
-  const auto runner = make_runner(1);
-  const StripeOffsets found = measured(rendered.frame, 20, *runner);
-  const StripeOffsets exchanged = measured(transposed, 20, *runner);
-  EXPECT_EQ(found.columns, exchanged.rows);
-  EXPECT_EQ(found.rows, exchanged.columns);
 }
 
 TEST(Stripes, AreTheSameOnEveryTargetAndRunner) {
-  Scene scene;
-  scene.stripe_sigmas = 0.3;
-  scene.step_sigmas = 2;
-  const Rendered rendered = render(scene);
-  const auto of = [&](ParallelRunner& runner) {
-    const StripeOffsets found = measured(rendered.frame, 20, runner);
-    EXPECT_FALSE(found.columns.empty());
-    return found;
-  };
-  const StripeOffsets expected = of(*make_runner(1));
-  for (const auto& runner : test::all_runners()) {
-    EXPECT_EQ(of(*runner).columns, expected.columns);
+  for (const double stripes : {0.3, 3.0}) {
+    Scene scene;
+    scene.stripe_sigmas = stripes;
+    scene.step_sigmas = 2;
+    const Rendered rendered = render(scene);
+    const auto of = [&](ParallelRunner& runner) {
+      const StripeOffsets found = measured(rendered.frame, 20, runner);
+      EXPECT_FALSE(found.columns.empty());
+      return found;
+    };
+    const StripeOffsets expected = of(*make_runner(1));
+    for (const auto& runner : test::all_runners()) {
+      EXPECT_EQ(of(*runner).columns, expected.columns);
+    }
+    test::for_each_simd_target([&](const std::string&) {
+      EXPECT_EQ(of(*make_runner(2)).columns, expected.columns);
+      EXPECT_EQ(of(*make_runner(2)).rows, expected.rows);
+    });
   }
-  test::for_each_simd_target([&](const std::string&) {
-    EXPECT_EQ(of(*make_runner(2)).columns, expected.columns);
-    EXPECT_EQ(of(*make_runner(2)).rows, expected.rows);
-  });
 }
 
 TEST(Stripes, AreTakenAwayRoundedAndWithinTheRange) {

@@ -47,15 +47,35 @@ struct StripeMaskTuning {
 // The measurements above StripeFinder are those of these values together. Where a line names no
 // measurement, it tells what the value trades off.
 struct StripeTuning {
+  // The rough start: the medians of the differences between neighbouring columns over every so
+  // many-th row, to within so much of the pixel noise. More of either is slower, and as good.
+  int start_row_step = 8;
+  double start_unit_sigmas = 0.25;
+  // These medians are taken off where they spread by so much of the pixel noise: weaker stripes are
+  // within edge_sigmas as they are. A median beyond so many of its deviations is an edge.
+  double start_deviation_sigmas = 1;
+  double start_edge_deviations = 5;
   // Differences between two pixels beyond this many sigma are edges of the scene, whatever the mask
   // says: white noise is beyond 5 sigma, 3.5 of a difference, once in 2500 pairs.
   double edge_sigmas = 5;
   // Least gradient of an edge in each round after the first, in units of what pixel noise makes of
   // it. Stripes are still in the way in the earlier ones.
   std::array<double, 2> edge_gradients = {5.0, 4.5};
-  // Least z of a lasting jump of the profile: a lower one leaves stripes, a higher one takes edges
-  // along a whole column for stripes.
-  double jump_z = 6;
+  // The trend of a smooth scene, such as that of a lens darker towards the corners, is a polynomial
+  // (docs/tuning.md, "Stripes"). First of slopes, from every so many-th column: 8 see it less well.
+  int slope_step_px = 4;
+  // It counts as far as it exceeds so many deviations of the stripes: a lower value takes strong
+  // stripes for a trend, a higher one the flanks of vignetting for jumps. From so many on, rms, it
+  // is a dome, on which jumps are looked for twice.
+  double steep_trend_deviations = 1.5;
+  double dome_deviations = 10;
+  // Then of the profile; z that a term has to exceed, and by which its square is reduced: lower
+  // ones leave smooth parts of strong stripes.
+  double trend_z = 3;
+  // Least z of a lasting jump of the profile: a lower one leaves stripes beside jumps that are none
+  // (of 6: a tenth more on domes and in scenes), a higher one takes edges along a whole column for
+  // stripes.
+  double jump_z = 7;
   std::size_t most_jumps = 24;  // bounds the time
   // Samples to either side that the test of a jump compares: long ones see small jumps, short ones
   // two that are close. A constant, as the table of their deviations has its size.
@@ -87,17 +107,20 @@ struct StripeOffsets {
 };
 
 // Stripes are white: neighbouring columns have nothing to do with each other. An edge of the scene
-// that runs along a column is one lasting jump, or is there on some of the rows only. So:
-// differences between columns at several lags, over the parts of their height where no edge lies
-// between them (found on the frame corrected so far); the offsets by least squares from these;
-// lasting jumps of their profile, found by a two-sided window test, are left to the scene; and
-// shrinkage by what the pixel noise alone would make of the offsets. The same for rows.
+// that runs along a column is one lasting jump, or is there on some of the rows only. So: strong
+// stripes are taken off by medians, whatever their strength; then differences between columns at
+// several lags, over the parts of their height where no edge lies between them, all on the frame
+// corrected so far; the offsets by least squares from these; a smooth trend of their profile and
+// its lasting jumps, found by a two-sided window test, are left to the scene; and shrinkage by what
+// the pixel noise alone would make of the offsets. The same for rows.
 //
 // On simulated frames of 382x288 with stripes of sigma / 3: an upright edge of 1 sigma keeps 0.9 of
 // its contrast over 40 % of the height and 0.85 over all of it, or more (means); stripes of 0.06
 // sigma are left where the scene is open, of 0.1 sigma where it is crowded (pixel noise alone makes
-// that 0.06). One object per thread; allocates on the first frame of a size only. The same result
-// for every ParallelRunner and SIMD target.
+// that 0.06). Of stripes of 3 sigma 0.06 are left where there is nothing else and 0.25 in a crowded
+// scene, whose edges along a whole column are seen from 5 sigma on. One object per thread;
+// allocates on the first frame of a size only. The same result for every ParallelRunner and SIMD
+// target.
 class StripeFinder {
  public:
   explicit StripeFinder(const StripeTuning& tuning = {});
