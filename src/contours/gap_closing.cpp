@@ -285,7 +285,9 @@ bool GapCloser::leads_over_invalid(const Tip& tip, Pixel to) const {
   const Vector way = direction(tip.at, to);
   const auto first = [](double place) { return static_cast<int>(std::floor(place + kRounding)); };
   const auto last = [](double place) { return static_cast<int>(std::ceil(place - kRounding)); };
-  for (double along = 0; along <= length; along += tuning_.step_px) {
+  const auto steps = static_cast<int>(length / tuning_.step_px);
+  for (int i = 0; i <= steps; ++i) {
+    const double along = i * tuning_.step_px;
     const double x = tip.at.x + along * way.x;
     const double y = tip.at.y + along * way.y;
     for (int v = first(y); v <= last(y); ++v) {

@@ -341,6 +341,9 @@ void NoiseModelEstimator::find_map(int width, int height, NoiseModel& model) {
     return std::max(steps, 2);
   };
   choose_coefficients(model.spectrum);
+  if (chosen_.size() < tuning_.fewest_coefficients) {
+    return;  // the spectrum is that of a scene without noise
+  }
   const double variance = model.level_counts * model.level_counts;
   for (std::size_t i = 0; i < coefficients_.size(); ++i) {
     double sum = 0;

@@ -575,7 +575,10 @@ bool InvalidFinder::is_dead_block(ImageView<const std::uint16_t> counts, const B
       steep += is_steep(value, at(i, 1), at(i, 2)) ? 1 : 0;
     }
   };
-  const auto [left, top, right, bottom] = block;
+  const int left = block.left;
+  const int top = block.top;
+  const int right = block.right;
+  const int bottom = block.bottom;
   int sides = 0;
   if (left >= 2) {
     ++sides;

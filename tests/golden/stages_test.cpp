@@ -189,18 +189,18 @@ TEST(GoldenStages, OfRobustInLittleNoise) {
                 {{"frame", 0x097D3CB601F24096},
                  {"noise", 0xA9775CC9614F2693},
                  {"bad pixels", 0x9B5DF59D2CE9529D},
-                 {"stripes", 0x468A455D6D0EF8EE},
-                 {"corrected", 0xBAA0361CD0D9D725},
-                 {"levels", 0xCCADC028DCC73FAE},
-                 {"denoised", 0x365F0E354528B6C4},
-                 {"edge pixels", 0xB85B4A6DE0B21CA4},
-                 {"contours", 0xC9D8DA30BA324968},
-                 {"linked", 0xE86B6644BD7371E7},
-                 {"corners", 0x596B6E7F9A7E1D56},
-                 {"scores", 0x2C4D5CD243B3DE8E},
-                 {"significance", 0x84CB6053D2B2E102},
-                 {"positions", 0xE231E6EFB819C4E2},
-                 {"selection", 0x8BA4095FD804AF84}});
+                 {"stripes", 0xA34DF5CC97420469},
+                 {"corrected", 0x3466E019913AF4BE},
+                 {"levels", 0xE815BA5793A82FD9},
+                 {"denoised", 0x7EE72F59B24A0AD8},
+                 {"edge pixels", 0x4622FAF7A08AE9A4},
+                 {"contours", 0x9C6A6A11026A575C},
+                 {"linked", 0xC2DBDE33D6D21824},
+                 {"corners", 0xD8D3080EF0B6E8AB},
+                 {"scores", 0xD18670551D649C88},
+                 {"significance", 0xD397DE769E6EB6BF},
+                 {"positions", 0xC5E8AF1D58D25306},
+                 {"selection", 0xC162161F2C03040C}});
 }
 
 TEST(GoldenStages, OfRobustInStrongNoise) {
@@ -208,18 +208,18 @@ TEST(GoldenStages, OfRobustInStrongNoise) {
                 {{"frame", 0x2A43AE39268BB285},
                  {"noise", 0xDD4A6DEF7903F239},
                  {"bad pixels", 0x9B5DF59D2CE9529D},
-                 {"stripes", 0xD10FCB542F3A8E74},
-                 {"corrected", 0xE33DDDACD4DD8DB7},
-                 {"levels", 0x761AE62BB6898EA6},
-                 {"denoised", 0xBB28C15055370F0F},
-                 {"edge pixels", 0xDBA1166D78A64AE4},
-                 {"contours", 0x26251A18E41FF3A2},
-                 {"linked", 0x1E9ABBBDAAD84D90},
-                 {"corners", 0x55FC6ABE314A6DCB},
-                 {"scores", 0x943D4FDA17BDB0F5},
-                 {"significance", 0x974A017902C2F0E4},
-                 {"positions", 0x640622195553B9A5},
-                 {"selection", 0x1E3830C73AB08A2D}});
+                 {"stripes", 0x9D4065D4441131E6},
+                 {"corrected", 0x9874609204C7CFA3},
+                 {"levels", 0x3BB435AA73833696},
+                 {"denoised", 0x1C73B79E7E23FC62},
+                 {"edge pixels", 0xFDE1FC57E7925A7B},
+                 {"contours", 0xA61756883AE921D1},
+                 {"linked", 0x9788D652E10AEBEA},
+                 {"corners", 0x70F7167721D18759},
+                 {"scores", 0x347AF303CE914CD1},
+                 {"significance", 0x70E40473CFB61DF0},
+                 {"positions", 0xA5DE7E9B4FBE7C95},
+                 {"selection", 0xB35410BFE54CC6C0}});
 }
 
 }  // namespace
