@@ -17,12 +17,22 @@ constexpr int kScaleBits =
 constexpr double kSigmaOverMad = 1.4826;        // of a Gaussian
 constexpr double kRoundingVariance = 1.0 / 12;  // of rounding to whole counts
 
-// The frequencies (across, down) at the scale of edges: what the oriented kernels respond to.
-constexpr std::array<std::pair<int, int>, 6> kEdgeScale = {
-    {{1, 1}, {1, 2}, {2, 1}, {2, 2}, {1, 3}, {3, 1}}};
-
 constexpr std::size_t index_of(int across, int down) {
   return static_cast<std::size_t>(down * kSide + across);
+}
+
+// Of value(u, v) over the frequencies 1 .. last; those of u, v and v, u come as one, so that a
+// transposed frame has the same sums to the last bit.
+template <class F>
+auto sum_over_frequencies(int last, F&& value) {
+  auto sum = decltype(value(1, 1))(0);
+  for (int v = 1; v <= last; ++v) {
+    for (int u = 1; u < v; ++u) {
+      sum += value(u, v) + value(v, u);
+    }
+    sum += value(v, v);
+  }
+  return sum;
 }
 
 // Row u: the first half of the cosine of frequency u, times 2^kScaleBits; the second half mirrors
@@ -177,14 +187,10 @@ void NoiseModelEstimator::transform_blocks(ImageView<const std::uint16_t> frame,
       }
       usable_.push_back(static_cast<std::int32_t>(coefficients_.size()));
       transform_block(block, coefficients_.emplace_back());
-      float energy = 0;
-      for (int v = 1; v < kSide; ++v) {
-        for (int u = 1; u < kSide; ++u) {
-          const float value = coefficients_.back()[index_of(u, v)];
-          energy += value * value;
-        }
-      }
-      energies_.push_back(energy);
+      energies_.push_back(sum_over_frequencies(kSide - 1, [&](int u, int v) {
+        const float value = coefficients_.back()[index_of(u, v)];
+        return value * value;
+      }));
     }
   }
 }
@@ -235,14 +241,10 @@ void NoiseModelEstimator::find_spectrum(NoiseModel& model) {
     }
   }
   find_flat([&](std::size_t block) {
-    float energy = 0;
-    for (int v = 1; v <= kLow; ++v) {
-      for (int u = 1; u <= kLow; ++u) {
-        const float value = coefficients_[block][index_of(u, v)];
-        energy += value * value;
-      }
-    }
-    return energy;
+    return sum_over_frequencies(kLow, [&](int u, int v) {
+      const float value = coefficients_[block][index_of(u, v)];
+      return value * value;
+    });
   });
   for (int v = 1; v < kSide; ++v) {
     for (int u = 1; u < kSide; ++u) {
@@ -251,11 +253,12 @@ void NoiseModelEstimator::find_spectrum(NoiseModel& model) {
       }
     }
   }
-  double sum = 0;
-  for (const auto& [across, down] : kEdgeScale) {
-    sum += variances[index_of(across, down)];
-  }
-  const double mean = sum / kEdgeScale.size();
+  // Frequencies at the scale of edges, what the oriented kernels respond to: the first 6
+  // diagonally.
+  const double mean =
+      sum_over_frequencies(
+          kLow, [&](int u, int v) { return u + v <= kLow + 1 ? variances[index_of(u, v)] : 0; }) /
+      6;
   model.level_counts = std::sqrt(mean);
   if (!(mean > 0)) {
     return;
@@ -344,13 +347,16 @@ void NoiseModelEstimator::find_map(int width, int height, NoiseModel& model) {
   if (chosen_.size() < tuning_.fewest_coefficients) {
     return;  // the spectrum is that of a scene without noise
   }
-  const double variance = model.level_counts * model.level_counts;
+  std::array<double, kCoefficients> weights{};
+  for (const std::size_t at : chosen_) {
+    weights[at] =
+        1 / (model.level_counts * model.level_counts * static_cast<double>(model.spectrum[at]));
+  }
   for (std::size_t i = 0; i < coefficients_.size(); ++i) {
-    double sum = 0;
-    for (const std::size_t at : chosen_) {
-      const double value = coefficients_[i][at];
-      sum += value * value / (variance * static_cast<double>(model.spectrum[at]));
-    }
+    const double sum = sum_over_frequencies(kSide - 1, [&](int u, int v) {
+      const double value = coefficients_[i][index_of(u, v)];
+      return value * value * weights[index_of(u, v)];
+    });
     energies_[i] = static_cast<float>(sum / static_cast<double>(chosen_.size()));
   }
   // Of a chi-square over its degrees of freedom, by Wilson and Hilferty.

@@ -54,7 +54,7 @@ struct ContrastSpreadTuning {
                        // of its samples: within it a length has the variance of half of it
   // Variance of the contrast less its slope for one edgel of white noise of 1, and the part of the
   // slope in it; and the least variance, of the first, that is believed.
-  double white_variance = 0.75;
+  double white_variance = 0.94;
   double slope_share = 1.0 / 3;
   double least_variance = 0.6;
 };
