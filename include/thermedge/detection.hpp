@@ -28,7 +28,7 @@ struct Detection {
   Corrections corrections;  // nothing, where the input was an edge map
   double sigma_counts = 0;  // the noise that the denoiser was told; 0: none, so it copied the frame
   double threshold_low = 0,
-         threshold_high = 0;  // hysteresis: Sobel magnitude in grey levels, or units of the noise
+         threshold_high = 0;  // hysteresis: Sobel magnitude in grey levels, or unit_counts
   double unit_counts = 0;     // of the oriented filter's thresholds; 0 for preset paper
   KernelSize kernel_px{0, 0};
   EdgeSet edges;

@@ -1,4 +1,4 @@
-// Counts across edges: shared by measure_contrast and test_significance.
+// Counts across edges: shared by measure_contrast and SignificanceTest.
 #pragma once
 
 #include <algorithm>
