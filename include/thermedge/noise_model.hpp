@@ -24,6 +24,11 @@ class NoiseLevelMap {
   [[nodiscard]] double at(int x, int y) const;
   // Of the pixels of row `y` into out[0 .. width of the frame). The noise is not even.
   void row(int y, float* out) const;
+  // out = offset + (in - middle) / level, of frames of this map's size: the same noise everywhere.
+  // `out` may be `in`. The noise is not even.
+  void even_out(ImageView<const float> in, float middle, float offset, ImageView<float> out) const;
+  // frame = frame * level + middle: undoes even_out with an offset of 0.
+  void undo_even_out(float middle, ImageView<float> frame) const;
 
   // The nodes, row by row, the outermost in the middle of the outermost blocks. Even: empty.
   [[nodiscard]] ImageView<const float> nodes() const { return nodes_; }
@@ -46,6 +51,9 @@ class NoiseLevelMap {
   };
   static void find_places(int pixels, int nodes, std::vector<Place>& places);
   [[nodiscard]] double on_column(int column, const Place& down) const;
+  // task(x, level) for the pixels of a row.
+  template <class F>
+  void for_each_in_row(int y, F&& task) const;
 
   Image<float> nodes_;
   std::vector<Place> across_, down_;  // of each column and row of the frame
@@ -69,6 +77,13 @@ struct NoiseModel {
   double level_counts = 0;
   NoiseSpectrum spectrum = white_spectrum();
   NoiseLevelMap map;
+
+  // White noise of this level everywhere.
+  void set_white(double level) {
+    level_counts = level;
+    spectrum = white_spectrum();
+    map.set_even();
+  }
 };
 
 }  // namespace thermedge

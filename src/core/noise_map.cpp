@@ -45,15 +45,37 @@ double NoiseLevelMap::at(int x, int y) const {
   return left + across.share * (on_column(across.node + 1, down) - left);
 }
 
-void NoiseLevelMap::row(int y, float* out) const {
+template <class F>
+void NoiseLevelMap::for_each_in_row(int y, F&& task) const {
   const Place& down = down_[static_cast<std::size_t>(y)];
   std::size_t x = 0;
   for (int column = 0; column + 1 < nodes_.width(); ++column) {
     const double left = on_column(column, down);
     const double step = on_column(column + 1, down) - left;
     for (; x < across_.size() && across_[x].node == column; ++x) {
-      out[x] = static_cast<float>(left + across_[x].share * step);
+      task(x, static_cast<float>(left + across_[x].share * step));
     }
+  }
+}
+
+void NoiseLevelMap::row(int y, float* out) const {
+  for_each_in_row(y, [=](std::size_t x, float level) { out[x] = level; });
+}
+
+void NoiseLevelMap::even_out(ImageView<const float> in, float middle, float offset,
+                             ImageView<float> out) const {
+  for (int y = 0; y < in.height(); ++y) {
+    const float* from = in.row(y);
+    float* to = out.row(y);
+    for_each_in_row(
+        y, [=](std::size_t x, float level) { to[x] = offset + (from[x] - middle) / level; });
+  }
+}
+
+void NoiseLevelMap::undo_even_out(float middle, ImageView<float> frame) const {
+  for (int y = 0; y < frame.height(); ++y) {
+    float* row = frame.row(y);
+    for_each_in_row(y, [=](std::size_t x, float level) { row[x] = row[x] * level + middle; });
   }
 }
 

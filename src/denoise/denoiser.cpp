@@ -110,19 +110,8 @@ struct Denoiser::Impl {
   Status run_evened(ImageView<const float> in, const Told& noise, const NoiseLevelMap& map,
                     ImageView<float> out, ParallelRunner& runner) {
     const auto mean = static_cast<float>(detail::frame_range(in).mean);
-    float* level = levels.row(0);
-    for (int y = 0; y < in.height(); ++y) {
-      map.row(y, level);
-      std::transform(in.row(y), in.row(y) + in.width(), level, out.row(y),
-                     [=](float value, float at) { return (value - mean) / at; });
-    }
-    return run(out, noise, out, runner).map([&] {
-      for (int y = 0; y < out.height(); ++y) {
-        map.row(y, level);
-        std::transform(out.row(y), out.row(y) + out.width(), level, out.row(y),
-                       [=](float value, float at) { return value * at + mean; });
-      }
-    });
+    map.even_out(in, mean, 0, out);
+    return run(out, noise, out, runner).map([&] { map.undo_even_out(mean, out); });
   }
 
   Status run_filters(ImageView<const float> in, const Told& noise, ImageView<float> out,
@@ -219,7 +208,6 @@ struct Denoiser::Impl {
   detail::Bm3d bm3d;
   detail::BilateralFilter bilateral;
   detail::Detrender detrend;
-  Image<float> levels;  // of the noise in one row
 };
 
 Denoiser::Denoiser(const DenoiseOptions& options, const DenoiseTuning& tuning)
@@ -230,7 +218,7 @@ Denoiser::~Denoiser() = default;
 
 std::size_t Denoiser::memory_bytes() const {
   return detail::memory_of(impl_->gaussian, impl_->nlm, impl_->bm3d, impl_->bilateral,
-                           impl_->detrend, impl_->levels);
+                           impl_->detrend);
 }
 
 Status Denoiser::run(ImageView<const float> in, double sigma, ImageView<float> out,
@@ -251,7 +239,6 @@ Status Denoiser::run_measured(ImageView<const float> in, const NoiseModel& noise
   const bool needs_noise = method == DenoiseMethod::kNlm || method == DenoiseMethod::kBm3d ||
                            impl_->options.bilateral.range_sigmas > 0;
   return impl_->guarded(in, out, [&] {
-    impl_->levels.resize(in.width(), 1);
     if (noise.level_counts == 0 && needs_noise) {
       return impl_->copy_clean(in, out);
     }

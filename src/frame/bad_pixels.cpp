@@ -52,6 +52,29 @@ Values ring(Frame frame, int x, int y, int radius, int side = 1) {
       frame, x, y, radius, [](int, int) { return true; }, side);
 }
 
+// How far a pixel or block lies above and below its neighbours, counts.
+struct Excess {
+  int above = 0;
+  int below = 0;
+};
+
+// What neighbours have, counts.
+struct Span {
+  int low = 0;
+  int high = 0;
+};
+
+// Whether it lies farther off than optics allow, given what its neighbours stand out of the pixels
+// around them. On the border, where one side is hidden, the flank of a point can look like a dead
+// pixel beside a hollow; the surroundings show that there is something.
+bool stands_out(Excess excess, Span neighbours, const Values& surroundings, bool all_seen,
+                int limit, int optics_ratio) {
+  const int contrast = all_seen ? 0 : surroundings.largest() - surroundings.smallest();
+  const int hill = std::max(neighbours.high - surroundings.median(), contrast);
+  const int hollow = std::max(surroundings.median() - neighbours.low, contrast);
+  return excess.above > limit + optics_ratio * hill || excess.below > limit + optics_ratio * hollow;
+}
+
 // The rule for dead pixels in full; slow, so only the pixels that pass the noise test get here.
 bool is_dead(Frame frame, int x, int y, int limit, int optics_ratio) {
   const Values neighbours = ring(frame, x, y, 1);
@@ -60,14 +83,8 @@ bool is_dead(Frame frame, int x, int y, int limit, int optics_ratio) {
   if (std::max(above, below) <= limit) {
     return false;  // whatever the surroundings are like
   }
-  const Values surroundings = ring(frame, x, y, 2);
-  // On the border, where one side is hidden, the flank of a point can look like a dead pixel beside
-  // a hollow; the surroundings show that there is something.
-  const bool all_seen = neighbours.size() == 8;
-  const int contrast = all_seen ? 0 : surroundings.largest() - surroundings.smallest();
-  const int hill = std::max(neighbours.second_largest() - surroundings.median(), contrast);
-  const int hollow = std::max(surroundings.median() - neighbours.second_smallest(), contrast);
-  return above > limit + optics_ratio * hill || below > limit + optics_ratio * hollow;
+  return stands_out({above, below}, {neighbours.second_smallest(), neighbours.second_largest()},
+                    ring(frame, x, y, 2), neighbours.size() == 8, limit, optics_ratio);
 }
 
 // The same for the block of 2x2 pixels from (x, y) on.
@@ -80,12 +97,8 @@ bool is_dead_block(Frame frame, int x, int y, int limit, int optics_ratio) {
   if (std::max(above, below) <= limit) {
     return false;
   }
-  const Values surroundings = ring(frame, x, y, 2, 2);
-  const bool all_seen = neighbours.size() == 12;
-  const int contrast = all_seen ? 0 : surroundings.largest() - surroundings.smallest();
-  const int hill = std::max(neighbours.largest() - surroundings.median(), contrast);
-  const int hollow = std::max(surroundings.median() - neighbours.smallest(), contrast);
-  return above > limit + optics_ratio * hill || below > limit + optics_ratio * hollow;
+  return stands_out({above, below}, {neighbours.smallest(), neighbours.largest()},
+                    ring(frame, x, y, 2, 2), neighbours.size() == 12, limit, optics_ratio);
 }
 
 bool is_before(const BadPixel& a, const BadPixel& b) { return a.y != b.y ? a.y < b.y : a.x < b.x; }

@@ -12,8 +12,8 @@ namespace thermedge {
 namespace {
 
 constexpr int kSide = kNoiseBlockPx;
-constexpr int kScaleBits =
-    11;  // of a transform along one axis: all sums of 16-bit counts are exact
+// Of a transform along one axis: all sums of 16-bit counts are exact.
+constexpr int kScaleBits = 11;
 constexpr double kSigmaOverMad = 1.4826;        // of a Gaussian
 constexpr double kRoundingVariance = 1.0 / 12;  // of rounding to whole counts
 
@@ -144,9 +144,7 @@ void transform_block(ImageView<const std::uint16_t> block, std::array<float, kSi
 void NoiseModelEstimator::measure(ImageView<const std::uint16_t> frame,
                                   ImageView<const std::uint8_t> valid, double pixel_sigma_counts,
                                   NoiseModel& model) {
-  model.level_counts = pixel_sigma_counts;
-  model.spectrum = white_spectrum();
-  model.map.set_even();
+  model.set_white(pixel_sigma_counts);
   if (std::min(frame.width(), frame.height()) < kSide) {
     return;
   }
@@ -371,10 +369,8 @@ void NoiseModelEstimator::find_map(int width, int height, NoiseModel& model) {
       even = even && nodes_(x, y) == 1;
     }
   }
-  model.map.set_nodes(nodes_, width,
-                      height);  // always, so that memory is there from the first frame
-  if (even) {
-    model.map.set_even();
+  if (!even) {
+    model.map.set_nodes(nodes_, width, height);
   }
 }
 

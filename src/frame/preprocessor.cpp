@@ -45,14 +45,12 @@ ImageView<const std::uint16_t> Preprocessor::run(const Frame& frame, ParallelRun
 }
 
 void Preprocessor::measure_model(Corrections& corrections) {
-  NoiseModel& model = corrections.noise_model;
+  const double pixels = corrections.noise.sigma_counts;
   if (model_noise_) {
-    model_estimator_.measure(corrected_, valid_view_, corrections.noise.sigma_counts, model);
-    return;
+    model_estimator_.measure(corrected_, valid_view_, pixels, corrections.noise_model);
+  } else {
+    corrections.noise_model.set_white(pixels);
   }
-  model.level_counts = corrections.noise.sigma_counts;
-  model.spectrum = white_spectrum();
-  model.map.set_even();
 }
 
 void Preprocessor::load(const Frame& frame, Corrections& corrections) {

@@ -37,9 +37,7 @@ void begin(Detection& found, Preset preset, int width, int height) {
   found.flags = 0;
   found.corrections.invalid = {};
   found.corrections.noise = {};
-  found.corrections.noise_model.level_counts = 0;
-  found.corrections.noise_model.spectrum = white_spectrum();
-  found.corrections.noise_model.map.set_even();
+  found.corrections.noise_model.set_white(0);
   found.corrections.bad_pixels.clear();
   found.corrections.stripes.columns.clear();
   found.corrections.stripes.rows.clear();

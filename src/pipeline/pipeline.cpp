@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "fill_square.hpp"
 #include "paper_pipeline.hpp"
 #include "robust_pipeline.hpp"
 
@@ -55,12 +56,7 @@ void keep_clear_of_invalid(ImageView<const std::uint8_t> valid, Image<std::uint8
       if (valid(x, y) != 0 || is_inside(x, y)) {
         continue;
       }
-      const int bottom = std::min(y + kInvalidReachPx, height - 1);
-      const int left = std::max(x - kInvalidReachPx, 0);
-      const int right = std::min(x + kInvalidReachPx, width - 1);
-      for (int v = std::max(y - kInvalidReachPx, 0); v <= bottom; ++v) {
-        std::fill(clear.row(v) + left, clear.row(v) + right + 1, std::uint8_t{0});
-      }
+      fill_square(clear.view(), x, y, kInvalidReachPx, std::uint8_t{0});
     }
   }
 }

@@ -99,6 +99,10 @@ void RobustPipeline::find_noise_scale(Detection& found) {
   found.unit_counts = noise_.unit_counts;
 }
 
+const NoiseModel& RobustPipeline::noise_to_mind(const Detection& found) const {
+  return noise_.noisiness > 0 ? found.corrections.noise_model : no_noise_;
+}
+
 double RobustPipeline::usual_contrast() {
   const int side = tuning_.square_px;
   spans_.clear();
@@ -126,7 +130,7 @@ double RobustPipeline::usual_contrast() {
 Status RobustPipeline::denoise(ParallelRunner& runner, Detection& found) {
   denoised_.resize(found.width, found.height);
   copy_pixels(counts_, denoised_.view());
-  const NoiseModel& noise = noise_.noisiness > 0 ? found.corrections.noise_model : no_noise_;
+  const NoiseModel& noise = noise_to_mind(found);
   return denoiser_.run_measured(denoised_, noise, denoised_, runner, noise_.noisiness).map([&] {
     even_ = even_out(noise.map);
   });
@@ -135,7 +139,6 @@ Status RobustPipeline::denoise(ParallelRunner& runner, Detection& found) {
 // Distances from the mean over the level of the noise.
 ImageView<const float> RobustPipeline::even_out(const NoiseLevelMap& map) {
   evened_.resize(denoised_.width(), denoised_.height());
-  levels_.resize(denoised_.width(), 1);
   if (map.is_even()) {
     return denoised_;
   }
@@ -144,12 +147,7 @@ ImageView<const float> RobustPipeline::even_out(const NoiseLevelMap& map) {
     sum += std::accumulate(counts_.row(y), counts_.row(y) + counts_.width(), 0.0);
   }
   const auto mean = static_cast<float>(sum / static_cast<double>(counts_.size()));
-  for (int y = 0; y < denoised_.height(); ++y) {
-    map.row(y, levels_.row(0));
-    std::transform(denoised_.row(y), denoised_.row(y) + denoised_.width(), levels_.row(0),
-                   evened_.row(y),
-                   [=](float value, float level) { return mean + (value - mean) / level; });
-  }
+  map.even_out(denoised_, mean, mean, evened_);
   return evened_;
 }
 
@@ -187,8 +185,7 @@ Status RobustPipeline::close_gaps() {
 
 // On the counts before denoising: a denoiser can invent an edge, the frame itself confirms it.
 void RobustPipeline::test_edges(Detection& found) {
-  const NoiseModel& noise = noise_.noisiness > 0 ? found.corrections.noise_model : no_noise_;
-  significance_.run(counts_, noise, preprocessor_.valid(), pixels_, found.edges);
+  significance_.run(counts_, noise_to_mind(found), preprocessor_.valid(), pixels_, found.edges);
 }
 
 Status RobustPipeline::select(Detection& found) {

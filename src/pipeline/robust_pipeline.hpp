@@ -53,9 +53,9 @@ class RobustPipeline final : public Pipeline {
 
   [[nodiscard]] std::size_t memory_bytes() const override {
     return memory_of(preprocessor_, denoiser_, filter_, graph_, gap_closer_, corner_finder_,
-                     scorer_, significance_, selector_, budgets_, spans_, denoised_, levels_,
-                     evened_, clear_, masked_, traced_.contours.points, traced_.contours.items,
-                     eligible_, linked_.contours.points, linked_.contours.items, linked_.links,
+                     scorer_, significance_, selector_, budgets_, spans_, denoised_, evened_,
+                     clear_, masked_, traced_.contours.points, traced_.contours.items, eligible_,
+                     linked_.contours.points, linked_.contours.items, linked_.links,
                      corners_.indices, corners_.ranges);
   }
 
@@ -63,6 +63,8 @@ class RobustPipeline final : public Pipeline {
   void take_told_noise(Corrections& corrections) const;
   void find_noise_scale(Detection& found);
   [[nodiscard]] double usual_contrast();
+  // No noise where it is as good as none.
+  [[nodiscard]] const NoiseModel& noise_to_mind(const Detection& found) const;
   Status denoise(ParallelRunner& runner, Detection& found);
   [[nodiscard]] ImageView<const float> even_out(const NoiseLevelMap& map);
   Status find_edge_pixels(ParallelRunner& runner, Detection& found);
@@ -90,10 +92,10 @@ class RobustPipeline final : public Pipeline {
   NoiseScale noise_;
   NoiseModel no_noise_;
   std::vector<int> spans_;
-  Image<float> denoised_;         // counts
-  Image<float> levels_, evened_;  // of the noise in a row; denoised counts over it
-  ImageView<const float> even_;   // denoised counts with the same noise everywhere
-  OrientedFilterResult pixels_;   // views of what filter_ holds
+  Image<float> denoised_;        // counts
+  Image<float> evened_;          // over the level of the noise
+  ImageView<const float> even_;  // denoised counts with the same noise everywhere
+  OrientedFilterResult pixels_;  // views of what filter_ holds
   Image<std::uint8_t> clear_, masked_;
   ImageView<const std::uint8_t> clear_view_;  // of clear_; empty where edges can be everywhere
   LinkedContours traced_;                     // by the graph

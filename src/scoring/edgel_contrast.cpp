@@ -212,6 +212,18 @@ void measure_edgels(ImageView<const std::uint16_t> frame, double sigma_counts, R
   });
 }
 
+Contrast measure_edge(ImageView<const std::uint16_t> frame, double sigma_counts,
+                      const ContrastTuning& tuning, Edgels& edgels, Edge& edge) {
+  Contrast contrast = contrast_across(frame, edgels, edge.edgels, tuning.farthest_px, tuning);
+  if (contrast.counts < 0) {
+    flip_normals(edgels, edge.edgels);
+    contrast.counts = -contrast.counts;
+  }
+  measure_edgels(frame, sigma_counts, edge.edgels, edgels);
+  edge.contrast_counts = contrast.counts;
+  return contrast;
+}
+
 double z_of(const Contrast& contrast, double sigma_counts) {
   if (contrast.counts == 0) {
     return 0;

@@ -62,6 +62,11 @@ void flip_normals(Edgels& edgels, Range range);
 void measure_edgels(ImageView<const std::uint16_t> frame, double sigma_counts, Range range,
                     Edgels& edgels);
 
+// The contrast of an edge whose normals are set; turns them round where the warmer side is the
+// other one, and fills magnitudes, position sigmas and contrast_counts.
+[[nodiscard]] Contrast measure_edge(ImageView<const std::uint16_t> frame, double sigma_counts,
+                                    const ContrastTuning& tuning, Edgels& edgels, Edge& edge);
+
 // In units of its standard deviation; infinite without noise.
 [[nodiscard]] double z_of(const Contrast& contrast, double sigma_counts);
 

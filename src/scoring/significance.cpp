@@ -10,6 +10,7 @@
 
 #include "contrast_spread.hpp"
 #include "edgel_contrast.hpp"
+#include "fill_square.hpp"
 #include "thermedge/memory.hpp"
 #include "thermedge/stages/scoring.hpp"
 
@@ -57,11 +58,11 @@ struct Step {
   double slope = 0;   // what slopes of the scene make of the contrast
 };
 
-// How much an edge stands out of edges of noise, in standard deviations of these; and the natural
-// logarithm of its mean suppressed response.
+// For an edge and against noise.
 struct Evidence {
-  double climb = 0;
-  double log_response = 0;
+  double climb = 0;          // how far it stands out of edges of noise, in their deviations
+  double log_response = 0;   // natural logarithm of its mean suppressed response
+  double excess_length = 0;  // edgels beyond the shortest edges
 };
 
 }  // namespace
@@ -79,13 +80,14 @@ struct SignificanceTest::Impl {
                    double level, double contrast);
   [[nodiscard]] double z_of_edge(const NoiseModel& noise, const Edgels& edgels, const Edge& edge,
                                  const Step& step) const;
-  [[nodiscard]] Evidence evidence(const Edge& edge) const;
-  void count_false_alarms(double pixels, EdgeSet& edges) const;
+  [[nodiscard]] Evidence evidence_for(const Edge& edge) const;
+  void count_false_alarms(double pixels, EdgeSet& edges);
 
   SignificanceTuning tuning;
   detail::ContrastSpread spread;
   Image<std::uint8_t> busy;
   std::vector<double> of_edgels;
+  std::vector<Evidence> evidence;  // for each edge
   std::array<Vector, kEdgeDirections> along = directions();
 };
 
@@ -93,13 +95,13 @@ void SignificanceTest::Impl::prepare(int width, int height, const EdgeSet& edges
   spread.prepare(width, height);
   busy.resize(width, height);
   of_edgels.reserve(edges.edgels.x.capacity());
+  evidence.reserve(edges.edges.capacity());
 }
 
 void SignificanceTest::Impl::mark_busy(const OrientedFilterResult& pixels,
                                        ImageView<const std::uint8_t> valid) {
   const int width = pixels.edges.width();
   const int height = pixels.edges.height();
-  const int reach = tuning.spread.clearance_px;
   fill_pixels(busy.view(), std::uint8_t{0});
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
@@ -109,11 +111,7 @@ void SignificanceTest::Impl::mark_busy(const OrientedFilterResult& pixels,
       if (!is_sure && (valid.empty() || valid(x, y) != 0)) {
         continue;
       }
-      const int left = std::max(x - reach, 0);
-      const int count = std::min(x + reach, width - 1) - left + 1;
-      for (int j = std::max(y - reach, 0); j <= std::min(y + reach, height - 1); ++j) {
-        std::fill_n(busy.row(j) + left, count, std::uint8_t{1});
-      }
+      detail::fill_square(busy.view(), x, y, tuning.spread.clearance_px, std::uint8_t{1});
     }
   }
 }
@@ -176,55 +174,56 @@ double SignificanceTest::Impl::z_of_edge(const NoiseModel& noise, const Edgels& 
          (noise.level_counts * std::sqrt(variance * (1 - of_slope + share * of_slope)));
 }
 
-Evidence SignificanceTest::Impl::evidence(const Edge& edge) const {
+Evidence SignificanceTest::Impl::evidence_for(const Edge& edge) const {
   const NoiseEdgeTuning& own = tuning.noise_edges;
   const double edgels = edge.edgels.count;
   return {(edge.z - own.climb * std::sqrt(edgels)) / own.deviation,
-          edge.score - ScoringTuning().length_weight * std::log(edgels)};
+          edge.score - ScoringTuning().length_weight * std::log(edgels),
+          std::max(edgels - own.shortest, 0.0)};
 }
 
-void SignificanceTest::Impl::count_false_alarms(double pixels, EdgeSet& edges) const {
+void SignificanceTest::Impl::count_false_alarms(double pixels, EdgeSet& edges) {
   const NoiseEdgeTuning& own = tuning.noise_edges;
-  const auto excess_length = [&](const Edge& edge) {
-    return std::max(static_cast<double>(edge.edgels.count) - own.shortest, 0.0);
-  };
+  evidence.clear();
+  std::transform(edges.edges.begin(), edges.edges.end(), std::back_inserter(evidence),
+                 [&](const Edge& edge) { return evidence_for(edge); });
   // Those below the mean of noise stand for as many above it.
   const auto for_each_candidate = [&](auto&& task) {
-    for (const Edge& edge : edges.edges) {
-      const Evidence found = evidence(edge);
-      if (edge.z > 0 && found.climb < 0) {
-        task(edge, found);
+    for (std::size_t i = 0; i < evidence.size(); ++i) {
+      if (edges.edges[i].z > 0 && evidence[i].climb < 0) {
+        task(evidence[i]);
       }
     }
   };
   double candidates = 0;
   double length = own.weight * own.mean_length;
   double log_response = own.weight * own.log_response;
-  for_each_candidate([&](const Edge& edge, const Evidence& found) {
+  for_each_candidate([&](const Evidence& found) {
     candidates += 2;
-    length += 2 * excess_length(edge);
+    length += 2 * found.excess_length;
     log_response += 2 * found.log_response;
   });
   const double weight = candidates + own.weight;
   length = std::clamp(length / weight, own.mean_length, own.longest_mean_length);
   log_response /= weight;
   double excess = own.weight * own.log_response_excess;
-  for_each_candidate([&](const Edge&, const Evidence& found) {
+  for_each_candidate([&](const Evidence& found) {
     excess += 2 * std::max(found.log_response - log_response, 0.0);
   });
   excess *= 2 / weight;  // the mean of an exponential one, of which half is above the mean
-  const auto sure = std::count_if(edges.edges.begin(), edges.edges.end(), [&](const Edge& edge) {
-    return evidence(edge).climb > own.sure_deviations;
+  const auto sure = std::count_if(evidence.begin(), evidence.end(), [&](const Evidence& found) {
+    return found.climb > own.sure_deviations;
   });
   candidates = std::max(candidates - own.faint_per_sure * static_cast<double>(sure),
                         pixels / own.px_per_candidate);
-  for (Edge& edge : edges.edges) {
-    const Evidence found = evidence(edge);
+  for (std::size_t i = 0; i < evidence.size(); ++i) {
+    const Evidence& found = evidence[i];
     const double of_climb = -detail::log10_tail(found.climb) / std::numbers::log10e;
     const double of_the_rest =
-        excess_length(edge) / length + std::max(found.log_response - log_response, 0.0) / excess;
+        found.excess_length / length + std::max(found.log_response - log_response, 0.0) / excess;
     const double x = found.climb >= own.least_climb ? of_climb + of_the_rest : of_climb;
-    edge.log10_nfa = std::log10(candidates * (1 + x + x * x / 2)) - x * std::numbers::log10e;
+    edges.edges[i].log10_nfa =
+        std::log10(candidates * (1 + x + x * x / 2)) - x * std::numbers::log10e;
   }
 }
 
@@ -235,7 +234,7 @@ SignificanceTest& SignificanceTest::operator=(SignificanceTest&&) noexcept = def
 SignificanceTest::~SignificanceTest() = default;
 
 std::size_t SignificanceTest::memory_bytes() const {
-  return detail::memory_of(impl_->spread, impl_->busy, impl_->of_edgels);
+  return detail::memory_of(impl_->spread, impl_->busy, impl_->of_edgels, impl_->evidence);
 }
 
 void SignificanceTest::run(ImageView<const std::uint16_t> frame, const NoiseModel& noise,
@@ -252,20 +251,17 @@ void SignificanceTest::run(ImageView<const std::uint16_t> frame, const NoiseMode
   for (Edge& edge : edges.edges) {
     detail::set_normals(edgels, edge);
     self.orient(pixels, edge, edgels);
-    detail::Contrast contrast = detail::contrast_across(
-        frame, edgels, edge.edgels, self.tuning.contrast.farthest_px, self.tuning.contrast);
-    if (contrast.counts < 0) {
-      detail::flip_normals(edgels, edge.edgels);
-      contrast.counts = -contrast.counts;
-    }
-    detail::measure_edgels(frame, noise.level_counts, edge.edgels, edgels);
-    edge.contrast_counts = contrast.counts;
+    detail::Contrast contrast =
+        detail::measure_edge(frame, noise.level_counts, self.tuning.contrast, edgels, edge);
     const double slope =
         self.explained(frame, edgels, edge.edgels, noise.level_counts, contrast.counts);
     contrast.counts = std::max(contrast.counts - slope, 0.0);
-    edge.z = is_noisy ? self.z_of_edge(noise, edgels, edge, {contrast.counts, slope})
-                      : detail::z_of(contrast, 0);
-    edge.log10_nfa = detail::log10_tail(edge.z);
+    if (is_noisy) {
+      edge.z = self.z_of_edge(noise, edgels, edge, {contrast.counts, slope});
+    } else {
+      edge.z = detail::z_of(contrast, 0);
+      edge.log10_nfa = detail::log10_tail(edge.z);
+    }
   }
   if (is_noisy) {
     self.count_false_alarms(static_cast<double>(frame.size()), edges);
