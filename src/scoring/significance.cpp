@@ -6,11 +6,12 @@
 #include <iterator>
 #include <limits>
 #include <numbers>
+#include <span>
 #include <vector>
 
 #include "contrast_spread.hpp"
 #include "edgel_contrast.hpp"
-#include "fill_square.hpp"
+#include "order_statistics.hpp"
 #include "thermedge/memory.hpp"
 #include "thermedge/stages/scoring.hpp"
 
@@ -32,10 +33,11 @@ std::array<Vector, kEdgeDirections> directions() {
   return along;
 }
 
-// What slopes make of a contrast, as far as they are measured on one side of an edge.
+// What slopes make of a contrast, measured on one side of an edge.
 struct SideSlopes {
   double chord = 0;
-  double ramp = 0;  // by its less steep half
+  double ramp = 0;            // by its less steep half
+  bool are_measured = false;  // there is room for a chord beside most of the edge
 };
 
 // Mean of the values but for a share at either end of their order; 0 of none. Reorders them.
@@ -72,6 +74,8 @@ struct SignificanceTest::Impl {
       : tuning(chosen), spread(chosen.spread, chosen.slopes, chosen.contrast) {}
 
   void prepare(int width, int height, const EdgeSet& edges);
+  void find_strongest(const OrientedFilterResult& pixels, ImageView<const std::uint8_t> valid);
+  float response_of_scene();
   void mark_busy(const OrientedFilterResult& pixels, ImageView<const std::uint8_t> valid);
   void orient(const OrientedFilterResult& pixels, const Edge& edge, Edgels& edgels) const;
   SideSlopes slopes(ImageView<const std::uint16_t> frame, const Edgels& edgels, Range range,
@@ -85,6 +89,9 @@ struct SignificanceTest::Impl {
 
   SignificanceTuning tuning;
   detail::ContrastSpread spread;
+  Image<float> strongest_in_row;
+  Image<float> strongest;
+  std::vector<float> responses;
   Image<std::uint8_t> busy;
   std::vector<double> of_edgels;
   std::vector<Evidence> evidence;  // for each edge
@@ -93,26 +100,70 @@ struct SignificanceTest::Impl {
 
 void SignificanceTest::Impl::prepare(int width, int height, const EdgeSet& edges) {
   spread.prepare(width, height);
+  strongest_in_row.resize(width, height);
+  strongest.resize(width, height);
+  responses.reserve(strongest.size());
   busy.resize(width, height);
   of_edgels.reserve(edges.edgels.x.capacity());
   evidence.reserve(edges.edges.capacity());
 }
 
-void SignificanceTest::Impl::mark_busy(const OrientedFilterResult& pixels,
-                                       ImageView<const std::uint8_t> valid) {
+// The largest response of an edge pixel of the scene near each pixel, 0 where none is near;
+// infinite near what is no measurement.
+void SignificanceTest::Impl::find_strongest(const OrientedFilterResult& pixels,
+                                            ImageView<const std::uint8_t> valid) {
   const int width = pixels.edges.width();
   const int height = pixels.edges.height();
-  fill_pixels(busy.view(), std::uint8_t{0});
+  const int reach = tuning.spread.clearance_px;
+  const auto sure = static_cast<float>(tuning.spread.sure_response);
   for (int y = 0; y < height; ++y) {
+    float* row = strongest_in_row.row(y);
+    std::fill_n(row, width, 0.0F);
     for (int x = 0; x < width; ++x) {
-      const bool is_sure =
-          pixels.edges(x, y) != 0 &&
-          static_cast<double>(pixels.suppressed_response(x, y)) > tuning.spread.sure_response;
-      if (!is_sure && (valid.empty() || valid(x, y) != 0)) {
-        continue;
+      const bool is_valid = valid.empty() || valid(x, y) != 0;
+      const float response = !is_valid                 ? std::numeric_limits<float>::infinity()
+                             : pixels.edges(x, y) != 0 ? pixels.suppressed_response(x, y)
+                                                       : 0;
+      if (response > sure) {
+        float* const end = row + std::min(x + reach + 1, width);
+        std::transform(row + std::max(x - reach, 0), end, row + std::max(x - reach, 0),
+                       [=](float other) { return std::max(other, response); });
       }
-      detail::fill_square(busy.view(), x, y, tuning.spread.clearance_px, std::uint8_t{1});
     }
+  }
+  for (int y = 0; y < height; ++y) {
+    float* row = strongest.row(y);
+    std::fill_n(row, width, 0.0F);
+    for (int v = std::max(y - reach, 0); v <= std::min(y + reach, height - 1); ++v) {
+      std::transform(row, row + width, strongest_in_row.row(v), row,
+                     [](float one, float other) { return std::max(one, other); });
+    }
+  }
+}
+
+// What the response of an edge of the scene exceeds. More than usual where such responses are all
+// over the frame: they are a pattern of the sensor then, or a texture.
+float SignificanceTest::Impl::response_of_scene() {
+  const auto usual = static_cast<float>(tuning.spread.sure_response);
+  responses.clear();
+  for (int y = 0; y < strongest.height(); ++y) {
+    std::copy_if(strongest.row(y), strongest.row(y) + strongest.width(),
+                 std::back_inserter(responses),
+                 [](float response) { return std::isfinite(response); });
+  }
+  const auto free = static_cast<std::size_t>(std::count(responses.begin(), responses.end(), 0.0F));
+  const auto rank = static_cast<std::size_t>(tuning.spread.least_measured *
+                                             static_cast<double>(responses.size()));
+  return free > rank || responses.empty() ? usual : detail::nth_value(std::span(responses), rank);
+}
+
+void SignificanceTest::Impl::mark_busy(const OrientedFilterResult& pixels,
+                                       ImageView<const std::uint8_t> valid) {
+  find_strongest(pixels, valid);
+  const float least = response_of_scene();
+  for (int y = 0; y < busy.height(); ++y) {
+    std::transform(strongest.row(y), strongest.row(y) + busy.width(), busy.row(y),
+                   [=](float response) { return response > least ? 1 : 0; });
   }
 }
 
@@ -142,17 +193,24 @@ SideSlopes SignificanceTest::Impl::slopes(ImageView<const std::uint16_t> frame,
     });
     return trimmed_mean(of_edgels, own.trim);
   };
-  return {mean_over(own.chord_from_px, own.chord_to_px),
-          std::min(mean_over(own.ramp_from_px, own.ramp_by_px),
-                   mean_over(own.ramp_by_px, own.ramp_to_px))};
+  SideSlopes found;
+  found.chord = mean_over(own.chord_from_px, own.chord_to_px);
+  found.are_measured = 2 * of_edgels.size() > range.count;
+  found.ramp = std::min(mean_over(own.ramp_from_px, own.ramp_by_px),
+                        mean_over(own.ramp_by_px, own.ramp_to_px));
+  return found;
 }
 
 // The part of a contrast that slopes of the scene explain, counts.
 double SignificanceTest::Impl::explained(ImageView<const std::uint16_t> frame, const Edgels& edgels,
                                          Range range, double level, double contrast) {
   const SideSlopeTuning& own = tuning.slopes;
-  const SideSlopes ahead = slopes(frame, edgels, range, 1);
-  const SideSlopes behind = slopes(frame, edgels, range, -1);
+  SideSlopes ahead = slopes(frame, edgels, range, 1);
+  SideSlopes behind = slopes(frame, edgels, range, -1);
+  // Beside the border of the frame the slope is taken to go on as it does on the other side.
+  if (!ahead.are_measured || !behind.are_measured) {
+    (ahead.are_measured ? behind : ahead) = ahead.are_measured ? ahead : behind;
+  }
   const double through = std::min((ahead.chord + behind.chord) / 2,
                                   own.most_uneven * std::min(ahead.chord, behind.chord));
   // Of two pixels, that far apart, for every edgel.
@@ -234,7 +292,8 @@ SignificanceTest& SignificanceTest::operator=(SignificanceTest&&) noexcept = def
 SignificanceTest::~SignificanceTest() = default;
 
 std::size_t SignificanceTest::memory_bytes() const {
-  return detail::memory_of(impl_->spread, impl_->busy, impl_->of_edgels, impl_->evidence);
+  return detail::memory_of(impl_->spread, impl_->strongest_in_row, impl_->strongest,
+                           impl_->responses, impl_->busy, impl_->of_edgels, impl_->evidence);
 }
 
 void SignificanceTest::run(ImageView<const std::uint16_t> frame, const NoiseModel& noise,

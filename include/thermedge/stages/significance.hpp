@@ -46,6 +46,10 @@ struct ContrastSpreadTuning {
   // lines keep so many px away. Fainter ones do not move the quantile.
   double sure_response = 0.7;
   int clearance_px = 6;
+  // At least this share of the valid pixels is measured, those with the weakest edges near: where
+  // edges are everywhere, most of them are a fixed pattern or a texture (simulated rooms leave .58
+  // to .7 free, a desk .3 to .45, a street .06, a frame full of fixed pattern .02).
+  double least_measured = 0.35;
   double quantile = 0.6;  // of the magnitudes of contrasts, and the z that normal ones have there
   double quantile_z = 0.8416;
   std::size_t fewest =
