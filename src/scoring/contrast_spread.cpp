@@ -56,6 +56,8 @@ int ContrastSpread::steps() const {
 }
 
 void ContrastSpread::prepare(int width, int height) {
+  width_ = width;
+  height_ = height;
   const int reach = (width + height) / 2;
   const auto longest = static_cast<std::size_t>(2 * reach + 1);
   line_.reserve(longest);
@@ -226,13 +228,26 @@ double ContrastSpread::at(std::size_t course, double edgels) const {
          (place - static_cast<double>(below)) * (variances[below + 1] - variances[below]);
 }
 
+// The map is smooth: beside a jump of the level it says less than there is.
+double ContrastSpread::level_at(const NoiseLevelMap& map, int x, int y) const {
+  if (map.is_even()) {
+    return 1;
+  }
+  const int reach = tuning_.level_reach_px;
+  const double largest =
+      std::max({map.at(std::max(x - reach, 0), y), map.at(std::min(x + reach, width_ - 1), y),
+                map.at(x, std::max(y - reach, 0)), map.at(x, std::min(y + reach, height_ - 1))});
+  return std::max(map.at(x, y), largest / tuning_.smooth_level_growth);
+}
+
 // The edgels of each orientation as a curve of their own.
 double ContrastSpread::variance(const Edgels& edgels, Range range, const NoiseLevelMap& map) const {
   std::array<double, kEdgeOrientations> counts{};
   double levels = 0;
   for (std::size_t i = range.first; i < range.first + range.count; ++i) {
     counts[orientation_of(edgels.nx[i], edgels.ny[i])] += 1;
-    const double level = map.at(static_cast<int>(edgels.x[i]), static_cast<int>(edgels.y[i]));
+    const double level =
+        level_at(map, static_cast<int>(edgels.x[i]), static_cast<int>(edgels.y[i]));
     levels += level * level;
   }
   double sum = 0;

@@ -58,6 +58,7 @@ class ContrastSpread {
   void find_variances(Course course);
   [[nodiscard]] int steps() const;  // of the contrast
   [[nodiscard]] double at(std::size_t course, double edgels) const;
+  [[nodiscard]] double level_at(const NoiseLevelMap& map, int x, int y) const;
   [[nodiscard]] std::vector<float>& samples(std::size_t course, std::size_t length) {
     return samples_[course * kLengths + length];
   }
@@ -66,6 +67,8 @@ class ContrastSpread {
   SideSlopeTuning slopes_;
   ContrastTuning contrast_;
   std::vector<double> weights_;  // along an axis: of the differences between pixels this far away
+  int width_ = 0;  // of the frame
+  int height_ = 0;
   Edgels line_;
   std::vector<double> contrasts_;
   std::vector<double> sums_;  // of them along the line, in units of the noise there

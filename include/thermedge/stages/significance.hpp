@@ -61,15 +61,19 @@ struct ContrastSpreadTuning {
   double white_variance = 0.94;
   double slope_share = 1.0 / 3;
   double least_variance = 0.6;
+  // The noise's map follows its level where that grows by up to this factor over so many px; where
+  // it grows by more, the level at an edge is what is so far away less this growth.
+  int level_reach_px = 24;
+  double smooth_level_growth = 1.25;
 };
 
 // What edges of noise look like. They climb along its ridges, so their z grows with the root of
 // their length N, whatever noise it is and whatever has been done to it: measured on frames of 15
-// kinds of noise, behind BM3D and behind a Gaussian, z = .55 sqrt(N) + .2 +- .85, lengths beyond 8
-// edgels and responses are exponential.
+// kinds of noise, behind BM3D and behind a Gaussian, z = .55 sqrt(N) + .2 +- .9 (.7 to 1.1),
+// lengths beyond 8 edgels and responses are exponential.
 struct NoiseEdgeTuning {
   double climb = 0.55;
-  double deviation = 0.8;
+  double deviation = 1.0;
   // What is expected before a frame is looked at: edges of white noise.
   double px_per_candidate = 110000;  // pixels of the frame
   double mean_length = 13;           // edgels beyond the shortest ones
