@@ -24,8 +24,9 @@ void measure_contrast(ImageView<const std::uint16_t> frame, double sigma_counts,
   const double log10_tests = std::log10(number_of_tests(edges));
   for (Edge& edge : edges.edges) {
     detail::set_normals(edges.edgels, edge);
-    edge.z = detail::z_of(detail::measure_edge(frame, sigma_counts, tuning, edges.edgels, edge),
-                          sigma_counts);
+    detail::Contrast contrast = detail::contrast_across(frame, edges.edgels, edge.edgels, tuning);
+    detail::take_contrast(frame, sigma_counts, edges.edgels, edge, contrast);
+    edge.z = detail::z_of(contrast, sigma_counts);
     edge.log10_nfa = log10_tests + std::log10(2.0) + detail::log10_tail(edge.z);
   }
 }

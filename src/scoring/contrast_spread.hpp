@@ -67,7 +67,7 @@ class ContrastSpread {
   SideSlopeTuning slopes_;
   ContrastTuning contrast_;
   std::vector<double> weights_;  // along an axis: of the differences between pixels this far away
-  int width_ = 0;  // of the frame
+  int width_ = 0;                // of the frame
   int height_ = 0;
   Edgels line_;
   std::vector<double> contrasts_;

@@ -168,25 +168,34 @@ void slopes_beside(ImageView<const std::uint16_t> frame, const Edgels& edgels, s
                  [=](double difference) { return scale * difference; });
 }
 
-Contrast contrast_across(ImageView<const std::uint16_t> frame, const Edgels& edgels, Range range,
-                         double farthest_px, const ContrastTuning& tuning) {
-  constexpr std::size_t kMostSteps = ContrastTuning::kMostSteps;
-  const double nearest_px = tuning.nearest_px;
-  std::array<RunOfDoubles, kMostSteps> steps;
+void contrasts_across(ImageView<const std::uint16_t> frame, const Edgels& edgels, std::size_t first,
+                      std::size_t count, const ContrastTuning& tuning, RunOfContrasts& out) {
   const auto per_edgel =
-      std::min(static_cast<std::size_t>(farthest_px - nearest_px) + 1, kMostSteps);
+      std::min(static_cast<std::size_t>(tuning.farthest_px - tuning.nearest_px) + 1,
+               ContrastTuning::kMostSteps);
+  out.sums.fill(0);
+  out.samples.fill(0);
+  for (std::size_t k = 0; k < per_edgel; ++k) {
+    RunOfDoubles step;
+    differences(frame, edgels, first, count, tuning.nearest_px + static_cast<double>(k), step);
+    for (std::size_t i = 0; i < count; ++i) {
+      const bool seen = !std::isnan(step[i]);
+      out.sums[i] += seen ? step[i] : 0;
+      out.samples[i] += seen ? 1 : 0;
+    }
+  }
+}
+
+Contrast contrast_across(ImageView<const std::uint16_t> frame, const Edgels& edgels, Range range,
+                         const ContrastTuning& tuning) {
   double sum = 0;
   int samples = 0;
   for_each_run(range, [&](std::size_t first, std::size_t count) {
-    for (std::size_t k = 0; k < per_edgel; ++k) {
-      differences(frame, edgels, first, count, nearest_px + static_cast<double>(k), steps[k]);
-    }
+    RunOfContrasts part;
+    contrasts_across(frame, edgels, first, count, tuning, part);
     for (std::size_t i = 0; i < count; ++i) {
-      for (std::size_t k = 0; k < per_edgel; ++k) {
-        const bool seen = !std::isnan(steps[k][i]);
-        sum += seen ? steps[k][i] : 0;
-        samples += seen ? 1 : 0;
-      }
+      sum += part.sums[i];
+      samples += part.samples[i];
     }
   });
   return {samples > 0 ? sum / samples : 0, samples};
@@ -212,16 +221,14 @@ void measure_edgels(ImageView<const std::uint16_t> frame, double sigma_counts, R
   });
 }
 
-Contrast measure_edge(ImageView<const std::uint16_t> frame, double sigma_counts,
-                      const ContrastTuning& tuning, Edgels& edgels, Edge& edge) {
-  Contrast contrast = contrast_across(frame, edgels, edge.edgels, tuning.farthest_px, tuning);
+void take_contrast(ImageView<const std::uint16_t> frame, double sigma_counts, Edgels& edgels,
+                   Edge& edge, Contrast& contrast) {
   if (contrast.counts < 0) {
     flip_normals(edgels, edge.edgels);
     contrast.counts = -contrast.counts;
   }
   measure_edgels(frame, sigma_counts, edge.edgels, edgels);
   edge.contrast_counts = contrast.counts;
-  return contrast;
 }
 
 double z_of(const Contrast& contrast, double sigma_counts) {

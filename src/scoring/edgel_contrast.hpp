@@ -49,10 +49,17 @@ struct Contrast {
   int samples = 0;
 };
 
-// From nearest_px to `farthest_px` on both sides.
+struct RunOfContrasts {
+  RunOfDoubles sums;  // of the differences
+  std::array<int, kMostEdgels> samples;
+};
+
+// Of `count` edgels, at most kMostEdgels, from nearest_px to farthest_px on both sides.
+void contrasts_across(ImageView<const std::uint16_t> frame, const Edgels& edgels, std::size_t first,
+                      std::size_t count, const ContrastTuning& tuning, RunOfContrasts& out);
+
 [[nodiscard]] Contrast contrast_across(ImageView<const std::uint16_t> frame, const Edgels& edgels,
-                                       Range range, double farthest_px,
-                                       const ContrastTuning& tuning);
+                                       Range range, const ContrastTuning& tuning);
 
 // Smoothed, to the right of the walking direction.
 void set_normals(Edgels& edgels, const Edge& edge);
@@ -62,10 +69,10 @@ void flip_normals(Edgels& edgels, Range range);
 void measure_edgels(ImageView<const std::uint16_t> frame, double sigma_counts, Range range,
                     Edgels& edgels);
 
-// The contrast of an edge whose normals are set; turns them round where the warmer side is the
-// other one, and fills magnitudes, position sigmas and contrast_counts.
-[[nodiscard]] Contrast measure_edge(ImageView<const std::uint16_t> frame, double sigma_counts,
-                                    const ContrastTuning& tuning, Edgels& edgels, Edge& edge);
+// Makes the contrast of an edge whose normals are set positive by turning them round where the
+// warmer side is the other one; fills magnitudes, position sigmas and contrast_counts.
+void take_contrast(ImageView<const std::uint16_t> frame, double sigma_counts, Edgels& edgels,
+                   Edge& edge, Contrast& contrast);
 
 // In units of its standard deviation; infinite without noise.
 [[nodiscard]] double z_of(const Contrast& contrast, double sigma_counts);

@@ -78,6 +78,8 @@ struct SignificanceTest::Impl {
   float response_of_scene();
   void mark_busy(const OrientedFilterResult& pixels, ImageView<const std::uint8_t> valid);
   void orient(const OrientedFilterResult& pixels, const Edge& edge, Edgels& edgels) const;
+  detail::Contrast contrast_of(ImageView<const std::uint16_t> frame, const Edgels& edgels,
+                               Range range);
   SideSlopes slopes(ImageView<const std::uint16_t> frame, const Edgels& edgels, Range range,
                     double side);
   double explained(ImageView<const std::uint16_t> frame, const Edgels& edgels, Range range,
@@ -178,6 +180,25 @@ void SignificanceTest::Impl::orient(const OrientedFilterResult& pixels, const Ed
       detail::flip_normals(edgels, {static_cast<std::uint32_t>(i), 1});
     }
   }
+}
+
+// Where an edge begins or ends at another one, the contrast is that of the other one.
+detail::Contrast SignificanceTest::Impl::contrast_of(ImageView<const std::uint16_t> frame,
+                                                     const Edgels& edgels, Range range) {
+  of_edgels.clear();
+  detail::Contrast found;
+  detail::for_each_run(range, [&](std::size_t first, std::size_t count) {
+    detail::RunOfContrasts part;
+    detail::contrasts_across(frame, edgels, first, count, tuning.contrast, part);
+    for (std::size_t i = 0; i < count; ++i) {
+      found.samples += part.samples[i];
+      if (part.samples[i] > 0) {
+        of_edgels.push_back(part.sums[i] / part.samples[i]);
+      }
+    }
+  });
+  found.counts = trimmed_mean(of_edgels, tuning.contrast_trim);
+  return found;
 }
 
 SideSlopes SignificanceTest::Impl::slopes(ImageView<const std::uint16_t> frame,
@@ -310,8 +331,8 @@ void SignificanceTest::run(ImageView<const std::uint16_t> frame, const NoiseMode
   for (Edge& edge : edges.edges) {
     detail::set_normals(edgels, edge);
     self.orient(pixels, edge, edgels);
-    detail::Contrast contrast =
-        detail::measure_edge(frame, noise.level_counts, self.tuning.contrast, edgels, edge);
+    detail::Contrast contrast = self.contrast_of(frame, edgels, edge.edgels);
+    detail::take_contrast(frame, noise.level_counts, edgels, edge, contrast);
     const double slope =
         self.explained(frame, edgels, edge.edgels, noise.level_counts, contrast.counts);
     contrast.counts = std::max(contrast.counts - slope, 0.0);

@@ -396,6 +396,67 @@ TEST(Significance, LeavesSureEdgesOutOfTheSpread) {
   EXPECT_GT(z(true), 2 * z(false));
 }
 
+TEST(Significance, AFrameFullOfStrongEdgesTellsItsNoiseByTheWeakest) {
+  // Bands of 40 counts every 12 px are in all places but at the left, where the bands are 4 counts.
+  const auto frame = frame_of(kSigma, [](int x, int) {
+    return x / 6 % 2 == 0 ? 0 : x < 80 ? 4 : 40;
+  });
+  const auto z = [&](double least_measured) {
+    Judged one(frame);
+    one.add(along_column(120, 60, 60));
+    for (int y = 0; y < kHeight; ++y) {
+      for (int x = 0; x < kWidth; x += 6) {
+        one.pixels().edges(x, y) = 255;
+        one.pixels().suppressed(x, y) = x < 80 ? 1.0F : 3.0F;
+      }
+    }
+    SignificanceTuning tuning;
+    tuning.spread.least_measured = least_measured;
+    return one.run(noise_of(kSigma), {}, tuning).front().z;
+  };
+  // A third is free of the strong ones; of two thirds, the bands are the noise.
+  EXPECT_GT(z(0.25), 2 * z(0.9));
+}
+
+TEST(Significance, BesideTheBorderTheSlopeOfTheInnerSideCounts) {
+  // A slope of 16 counts per px has a contrast of some 64 counts, 8 sigma, 3 px from the border.
+  const auto frame = frame_of(kSigma, [](int x, int) { return 16 * x; });
+  EXPECT_LT(judged(frame, along_column(3, 60, 80), noise_of(kSigma)).z, 4);
+  EXPECT_LT(judged(frame, along_column(kWidth - 4, 60, 80), noise_of(kSigma)).z, 4);
+  const auto step = frame_of(kSigma, [](int x, int) { return step_at(x, 4, 12); });
+  EXPECT_GT(judged(step, along_column(4, 60, 80), noise_of(kSigma)).z, 8);
+}
+
+TEST(Significance, TheEdgeThatAnEndMeetsDoesNotCount) {
+  // An edge of nothing runs for 60 px from 4 px beyond a step of 400 counts.
+  const auto frame = frame_of(kSigma, [](int x, int y) { return x < 60 && y < 100 ? 400 : 0; });
+  const auto z = [&](double trim) {
+    Judged one(frame);
+    one.add(along_row(56, 100, 64));
+    SignificanceTuning tuning;
+    tuning.contrast_trim = trim;
+    return one.run(noise_of(kSigma), {}, tuning).front().z;
+  };
+  EXPECT_LT(z(0.1), 0.5 * z(0));
+}
+
+TEST(Significance, BesideAJumpOfTheLevelTheHigherOneCounts) {
+  const auto frame = frame_of(kSigma, [](int x, int) { return step_at(x, 120, 16); });
+  Image<float> nodes(10, 2);
+  const auto z = [&](float right) {
+    for (int y = 0; y < 2; ++y) {
+      for (int x = 0; x < 10; ++x) {
+        nodes(x, y) = x < 6 ? 1 : right;
+      }
+    }
+    NoiseModel noise = noise_of(kSigma);
+    noise.map.set_nodes(nodes, kWidth, kHeight);
+    return judged(frame, along_column(120, 60, 60), noise).z;
+  };
+  EXPECT_NEAR(z(1.2F) / z(1.0001F), 1, 0.1);
+  EXPECT_LT(z(4), 0.8 * z(1.0001F));
+}
+
 TEST(Significance, SurvivesDegenerateEdges) {
   const auto noise = noise_image<std::uint16_t>(kWidth, kHeight, 8000, 8, 1);
   Judged odd(noise);

@@ -94,6 +94,9 @@ struct NoiseEdgeTuning {
 struct SignificanceTuning {
   // Farther out than measure_contrast looks, so that faint edges show.
   ContrastTuning contrast{.farthest_px = 4.5};
+  // Share of the edgels at either end of the contrasts' order that is left out of their mean. Of .1
+  // and none, F on scenes of 4000 counts is .960 and .956, at 8 counts of noise .976 and .975.
+  double contrast_trim = 0.1;
   SideSlopeTuning slopes = {};
   ContrastSpreadTuning spread = {};
   NoiseEdgeTuning noise_edges = {};
@@ -102,7 +105,8 @@ struct SignificanceTuning {
 // Measured: docs/tuning.md ("Significance").
 //
 // Fills what measure_contrast fills (contrast.hpp), for edges that must prove themselves on the
-// frame before denoising. The contrast is up to 4.5 px to both sides. z is the contrast less what
+// frame before denoising. The contrast is up to 4.5 px to both sides, without
+// the edgels of the most and the least. z is the contrast less what
 // slopes of the scene make of it, in units of the standard deviation that it has along curves of
 // this length and direction where no edge is; that is measured on the frame itself, so stripes that
 // are left, a fixed pattern and noise that is smooth or rough all count for what they are. The
