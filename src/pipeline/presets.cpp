@@ -29,7 +29,7 @@ void set_fast(DetectorOptions& options) {
   set_robust(options);
   options.denoise = {};
   options.denoise.method = DenoiseMethod::kGaussian;
-  options.denoise.gaussian.sigma_px = 2;
+  options.denoise.gaussian.sigma_px = 1.5;
   options.denoise.detrend = true;
   options.denoise.bilateral.range_sigmas = 0.3;
   options.selection.min_score = 0;

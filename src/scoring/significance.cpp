@@ -256,7 +256,8 @@ double SignificanceTest::Impl::z_of_edge(const NoiseModel& noise, const Edgels& 
 Evidence SignificanceTest::Impl::evidence_for(const Edge& edge) const {
   const NoiseEdgeTuning& own = tuning.noise_edges;
   const double edgels = edge.edgels.count;
-  return {(edge.z - own.climb * std::sqrt(edgels)) / own.deviation,
+  const double of_ring = edge.closed ? std::min(own.ring_climb, own.ring_climb_edgels / edgels) : 0;
+  return {(edge.z - own.climb * std::sqrt(edgels) - of_ring) / own.deviation,
           edge.score - ScoringTuning().length_weight * std::log(edgels),
           std::max(edgels - own.shortest, 0.0)};
 }

@@ -198,7 +198,7 @@ TEST(GoldenStages, OfRobustInLittleNoise) {
                  {"linked", 0xC2DBDE33D6D21824},
                  {"corners", 0xD8D3080EF0B6E8AB},
                  {"scores", 0xD18670551D649C88},
-                 {"significance", 0x8B1173E53CC63F3B},
+                 {"significance", 0xEA465BF7DCF6657D},
                  {"positions", 0xC5E8AF1D58D25306},
                  {"selection", 0xC162161F2C03040C}});
 }
@@ -217,7 +217,7 @@ TEST(GoldenStages, OfRobustInStrongNoise) {
                  {"linked", 0x9788D652E10AEBEA},
                  {"corners", 0x70F7167721D18759},
                  {"scores", 0x347AF303CE914CD1},
-                 {"significance", 0x3B30E298D4AA2255},
+                 {"significance", 0x59CF6863B0409F65},
                  {"positions", 0xA5DE7E9B4FBE7C95},
                  {"selection", 0xB35410BFE54CC6C0}});
 }

@@ -95,8 +95,10 @@ class Judged {
  public:
   explicit Judged(ImageView<const std::uint16_t> frame) : frame_(frame), pixels_(kWidth, kHeight) {}
 
-  void add(const Points& points, double response = 0.19) {
-    set_response(test::add_edge(set_, points), response);
+  void add(const Points& points, double response = 0.19, bool closed = false) {
+    Edge& edge = test::add_edge(set_, points);
+    set_response(edge, response);
+    edge.closed = closed;
   }
   const std::vector<Edge>& run(const NoiseModel& noise, ImageView<const std::uint8_t> valid = {},
                                const SignificanceTuning& tuning = {}) {
@@ -455,6 +457,32 @@ TEST(Significance, BesideAJumpOfTheLevelTheHigherOneCounts) {
   };
   EXPECT_NEAR(z(1.2F) / z(1.0001F), 1, 0.1);
   EXPECT_LT(z(4), 0.8 * z(1.0001F));
+}
+
+TEST(Significance, ARingMustStandOutFartherThanALine) {
+  const auto frame = frame_of(
+      kSigma, [](int x, int y) { return std::hypot(x - 120, y - 100) < 2.5 ? 3 * kSigma : 0; });
+  Points ring;
+  for (int i = 0; i < 12; ++i) {
+    const double angle = i * std::numbers::pi / 6;
+    ring.emplace_back(static_cast<float>(120 + 2 * std::cos(angle)),
+                      static_cast<float>(100 + 2 * std::sin(angle)));
+  }
+  const auto log10_nfa = [&](bool closed, double climb) {
+    Judged one(frame);
+    one.add(ring, 0.19, closed);
+    for (std::size_t i = 0; i < ring.size(); ++i) {  // the middle is warmer
+      const auto [x, y] = ring[i];
+      one.pixels().direction(static_cast<int>(x), static_cast<int>(y)) =
+          (static_cast<int>(i) * 2 + 6) % kEdgeDirections;
+    }
+    SignificanceTuning tuning;
+    tuning.noise_edges.ring_climb = climb;
+    return one.run(noise_of(kSigma), {}, tuning).front().log10_nfa;
+  };
+  const double usual = SignificanceTuning().noise_edges.ring_climb;
+  EXPECT_GT(log10_nfa(true, usual), log10_nfa(true, 0) + 2);
+  EXPECT_EQ(log10_nfa(false, usual), log10_nfa(false, 0));
 }
 
 TEST(Significance, SurvivesDegenerateEdges) {
