@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "thermedge/io/config.hpp"
+#include "thermedge/radiometry/planck.hpp"
 
 namespace thermedge::cli {
 namespace {
@@ -17,6 +18,21 @@ void add_flags(bool of_denoising, DetectorCommand& command, CLI::App& app) {
   }
 }
 
+// Worth of a count of a camera, degC.
+Result<double> parse_camera(const std::string& text) {
+  const auto model = parse_counts_model(text);
+  if (!model) {
+    return failure(model.error().code, "--camera: " + model.error().message);
+  }
+  if (!model->is_linear()) {
+    return failure(ErrorCode::kInvalidArgument,
+                   "--camera " + text +
+                       ": its counts are not in proportion to degC; give --degc-per-count for the "
+                       "temperatures that matter");
+  }
+  return model->degc_per_count(0);
+}
+
 }  // namespace
 
 void DetectorCommand::add_to(CLI::App& app) {
@@ -26,6 +42,10 @@ void DetectorCommand::add_to(CLI::App& app) {
   app.add_option("--preset", preset, "named set of defaults: robust, fast or paper")
       ->check(CLI::IsMember(names_of(kPresets)));
   add_flags(false, *this, app);
+  app.add_option("--camera", camera,
+                 "for --min-contrast in degC, instead of --degc-per-count: linear, optris, lepton, "
+                 "lepton-0.1 or linear:DEGC_PER_COUNT,DEGC_AT_ZERO")
+      ->excludes("--degc-per-count");
 }
 
 void DetectorCommand::add_denoising_to(CLI::App& app) {
@@ -50,6 +70,10 @@ Result<DetectorOptions> DetectorCommand::options() const {
                      return error;
                    });
     }
+  }
+  if (camera && status) {
+    status =
+        parse_camera(*camera).map([&](double degc) { options.selection.degc_per_count = degc; });
   }
   if (sigma && status) {
     status = parse_sigma(*sigma).map([&](double counts) { options.denoise.sigma_counts = counts; });

@@ -25,11 +25,15 @@ inline constexpr std::array kFlags = {
                "most edgels in the kept edges (0: any number)", false},
     OptionFlag{"--max-false-alarms", "selection.max_false_alarms",
                "false edges accepted in a frame of noise, on average (0: no test)", false},
+    OptionFlag{"--min-contrast", "selection.min_contrast",
+               "smallest contrast of an edge: counts, or with a unit, 3sigma or 0.5degC", false},
+    OptionFlag{"--degc-per-count", "selection.degc_per_count",
+               "worth of a count, degC, for --min-contrast in degC", false},
     OptionFlag{"--denoise", "denoise.method", "denoiser: none, gaussian, nlm or bm3d", true}};
 
 // The options of a command that runs the detector on frames: the common ones and --preset,
-// --config, --set, --dump-config, --keep, --max-edgels, --max-false-alarms; --denoise and --sigma
-// where a frame is denoised.
+// --config, --set, --dump-config, --camera, and those of kFlags; --denoise and --sigma where a
+// frame is denoised.
 struct DetectorCommand {
   CommonOptions common;
   ConfigOptions config;
@@ -37,6 +41,7 @@ struct DetectorCommand {
   // Values of the flags that stand for one option each, by their place in kFlags.
   std::array<std::optional<std::string>, kFlags.size()> flags;
   std::optional<std::string> sigma;
+  std::optional<std::string> camera;  // instead of --degc-per-count
 
   void add_to(CLI::App& app);
   void add_denoising_to(CLI::App& app);

@@ -207,6 +207,15 @@ class StagePanels {
     return options_.robust() != nullptr ? statuses() : edge_scores();
   }
 
+  // Whether options let edges have this status.
+  [[nodiscard]] bool is_asked_for(EdgeStatus status) const {
+    const SelectionOptions& selection = options_.selection;
+    return status == EdgeStatus::kLowContrast ? selection.min_contrast.value > 0
+           : status == EdgeStatus::kBeyondBudget
+               ? selection.keep_edges > 0 || selection.max_edgels > 0
+               : true;
+  }
+
   // Why edges were kept or dropped.
   [[nodiscard]] Panel statuses() const {
     const EdgeSet& set = found_.edges;
@@ -215,9 +224,10 @@ class StagePanels {
       Rgb colour;
       std::string_view label;
     };
-    static const std::array<Kind, 4> kKinds = {
+    static const std::array<Kind, 5> kKinds = {
         Kind{EdgeStatus::kWeak, {96, 104, 116}, "weak"},
         Kind{EdgeStatus::kInsignificant, category_colour(3), "not significant"},
+        Kind{EdgeStatus::kLowContrast, category_colour(5), "low contrast"},
         Kind{EdgeStatus::kBeyondBudget, category_colour(4), "beyond budget"},
         Kind{EdgeStatus::kKept, category_colour(1), "kept"}};
     const auto& selection = options_.selection;
@@ -235,6 +245,9 @@ class StagePanels {
           });
         });
     for (const Kind& kind : kKinds) {
+      if (!is_asked_for(kind.status)) {
+        continue;
+      }
       const auto count = std::count_if(set.edges.begin(), set.edges.end(), [&](const Edge& edge) {
         return edge.status == kind.status;
       });

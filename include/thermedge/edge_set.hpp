@@ -81,6 +81,7 @@ enum class EdgeStatus {
   kBeyondBudget,   // passed all tests, but there were better ones
   kWeak,           // its score is too low
   kInsignificant,  // noise alone makes such edges too often
+  kLowContrast,    // its contrast is below the smallest one asked for
 };
 
 struct Edge {
@@ -91,11 +92,14 @@ struct Edge {
   double display_strength = 0;  // 0..1, falls with the rank, for pictures. By the score, so that it
                                 // means the same in every frame; where ES ranks, evenly from 1 to 0
   double es = 0;                // edge score of the paper, eqs. 14-18
+  // How sure: z and log10_nfa. How strong: contrast_counts and contrast_sigmas.
   double z = 0;          // contrast across the edge on the frame before denoising, in units of
                          // its standard deviation by noise alone
   double log10_nfa = 0;  // log10 of the expected number of such edges in pure noise
   double length_px = 0;  // arc length
   double contrast_counts = 0;  // mean step across the edge, counts
+  double contrast_sigmas = 0;  // the same in units of the noise where the edge lies, whatever the
+                               // edge's length; infinite without noise
   bool closed = false;
   // Whether the first, or the last, point is where pixels that are no measurement cut the edge off:
   // the thing that it bounds goes on there.

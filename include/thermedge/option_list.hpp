@@ -3,7 +3,9 @@
 // `--dump-config` all walk these lists.
 #pragma once
 
+#include <array>
 #include <concepts>
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -27,6 +29,26 @@ struct EnumName {
 template <class E>
 EnumName(E, std::string_view) -> EnumName<E>;
 
+// A number with its unit, in TOML and on the command line one text: "3sigma". Default: 0 of the
+// first unit.
+template <class Unit>
+struct Quantity {
+  double value = 0;
+  Unit unit = Unit{};
+
+  friend bool operator==(const Quantity&, const Quantity&) = default;
+};
+
+// Range of the number of a quantity, whatever its unit, and the names of the units; a bare number
+// is in the first one.
+template <class Unit, std::size_t N>
+struct QuantityRange {
+  Bounds bounds;
+  std::array<EnumName<Unit>, N> units;
+};
+template <class Unit, std::size_t N>
+QuantityRange(Bounds, std::array<EnumName<Unit>, N>) -> QuantityRange<Unit, N>;
+
 template <class O, class Options>
 concept OptionsOf = std::same_as<std::remove_const_t<O>, Options>;
 
@@ -34,12 +56,24 @@ concept OptionsOf = std::same_as<std::remove_const_t<O>, Options>;
 // order
 //   visitor(name, field, bounds, help)   numbers: bool, int, double (bool has bounds 0..1)
 //   visitor(name, field, names, help)    enumerations; `names` is an array of EnumName
+//   visitor(name, field, range, help)    quantities; `range` is a QuantityRange
 //   visitor.group(name, options)         nested structs, whose options are called "<name>.<option>"
 
 namespace detail {
 
 // The shortest text that reads back as the same number.
 [[nodiscard]] std::string shortest_text(double value);
+
+// As it reads in TOML and on the command line, "3sigma"; a bare number in the first unit.
+template <class Unit, std::size_t N>
+[[nodiscard]] std::string quantity_text(const Quantity<Unit>& quantity,
+                                        const std::array<EnumName<Unit>, N>& units) {
+  std::string text = shortest_text(quantity.value);
+  for (std::size_t i = 1; i < N; ++i) {
+    text += units[i].value == quantity.unit ? units[i].name : std::string_view{};
+  }
+  return text;
+}
 
 [[nodiscard]] std::string out_of_range(const std::string& name, double value, Bounds bounds);
 
@@ -54,6 +88,11 @@ class RangeChecker {
       value_ = number;
       bounds_ = bounds;
     }
+  }
+  template <class Unit, std::size_t N>
+  void operator()(std::string_view name, const Quantity<Unit>& quantity,
+                  const QuantityRange<Unit, N>& range, std::string_view help) {
+    (*this)(name, quantity.value, range.bounds, help);
   }
   template <class E, class Names>
   requires std::is_enum_v<E>

@@ -111,7 +111,12 @@ void visit_options(O& o, V&& v) {
   if (auto* paper = o.paper()) {
     visit_options(*paper, v);
   }
-  v.group("selection", o.selection);
+  if (o.paper()) {
+    const SelectionWithoutContrast selection{o.selection};
+    v.group("selection", selection);
+  } else {
+    v.group("selection", o.selection);
+  }
 }
 
 }  // namespace thermedge

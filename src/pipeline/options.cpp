@@ -28,6 +28,18 @@ Status check_unused(DenoiseMethod owner, DenoiseMethod chosen, const Group& opti
   return {};
 }
 
+// Preset paper drops no edge by its contrast.
+Status check_contrast(const SelectionOptions& options, Preset preset) {
+  const SelectionOptions usual;
+  const bool is_set = options.min_contrast != usual.min_contrast;
+  if (preset != Preset::kPaper || (!is_set && options.degc_per_count == usual.degc_per_count)) {
+    return {};
+  }
+  const std::string name = is_set ? "selection.min_contrast" : "selection.degc_per_count";
+  return failure(ErrorCode::kInvalidArgument,
+                 name + " is used with presets robust and fast only; the preset is paper", name);
+}
+
 Status check_denoisers(const DenoiseOptions& options, const DenoiseOptions& of_preset) {
   const DenoiseMethod chosen = options.method;
   const bool is_told_noise = chosen == DenoiseMethod::kNlm || chosen == DenoiseMethod::kBm3d;
@@ -65,7 +77,8 @@ Status DetectorOptions::check() const {
   return check_ranges(*this, "")
       .and_then([&] { return check_each(validity, bad_pixels, stripes, denoise, selection); })
       .and_then([&] { return std::visit([](const auto& own) { return own.check(); }, own_); })
-      .and_then([&] { return check_denoisers(denoise, DetectorOptions(preset_).denoise); });
+      .and_then([&] { return check_denoisers(denoise, DetectorOptions(preset_).denoise); })
+      .and_then([&] { return check_contrast(selection, preset_); });
 }
 
 }  // namespace thermedge

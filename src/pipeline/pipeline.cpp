@@ -104,7 +104,8 @@ void mark_cut_ends(ImageView<const std::uint8_t> valid, EdgeSet& edges) {
 
 void forget_contrast(EdgeSet& edges) {
   for (Edge& edge : edges.edges) {
-    edge.contrast_counts = edge.z = edge.log10_nfa = std::numeric_limits<double>::quiet_NaN();
+    edge.contrast_counts = edge.contrast_sigmas = edge.z = edge.log10_nfa =
+        std::numeric_limits<double>::quiet_NaN();
   }
 }
 

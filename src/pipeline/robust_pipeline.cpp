@@ -189,7 +189,7 @@ void RobustPipeline::test_edges(Detection& found) {
 }
 
 Status RobustPipeline::select(Detection& found) {
-  return selector_.run(found.edges).map([&] {
+  return selector_.run(found.edges, found.corrections.counts_per_unit).map([&] {
     selector_.keep_junctions(found.width, found.height, found.edges);
   });
 }

@@ -27,6 +27,7 @@ void measure_contrast(ImageView<const std::uint16_t> frame, double sigma_counts,
     detail::Contrast contrast = detail::contrast_across(frame, edges.edgels, edge.edgels, tuning);
     detail::take_contrast(frame, sigma_counts, edges.edgels, edge, contrast);
     edge.z = detail::z_of(contrast, sigma_counts);
+    edge.contrast_sigmas = detail::in_sigmas(edge.contrast_counts, sigma_counts);
     edge.log10_nfa = log10_tests + std::log10(2.0) + detail::log10_tail(edge.z);
   }
 }

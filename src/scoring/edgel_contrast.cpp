@@ -231,12 +231,16 @@ void take_contrast(ImageView<const std::uint16_t> frame, double sigma_counts, Ed
   edge.contrast_counts = contrast.counts;
 }
 
-double z_of(const Contrast& contrast, double sigma_counts) {
-  if (contrast.counts == 0) {
+double in_sigmas(double contrast_counts, double sigma_counts) {
+  if (contrast_counts == 0) {
     return 0;
   }
-  return sigma_counts > 0 ? contrast.counts / (sigma_counts * std::sqrt(2.0 / contrast.samples))
+  return sigma_counts > 0 ? contrast_counts / sigma_counts
                           : std::numeric_limits<double>::infinity();
+}
+
+double z_of(const Contrast& contrast, double sigma_counts) {
+  return in_sigmas(contrast.counts, sigma_counts * std::sqrt(2.0 / contrast.samples));
 }
 
 // Far out, where the probability itself would underflow,

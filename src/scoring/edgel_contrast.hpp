@@ -74,6 +74,9 @@ void measure_edgels(ImageView<const std::uint16_t> frame, double sigma_counts, R
 void take_contrast(ImageView<const std::uint16_t> frame, double sigma_counts, Edgels& edgels,
                    Edge& edge, Contrast& contrast);
 
+// A contrast in units of the noise; infinite without noise.
+[[nodiscard]] double in_sigmas(double contrast_counts, double sigma_counts);
+
 // In units of its standard deviation; infinite without noise.
 [[nodiscard]] double z_of(const Contrast& contrast, double sigma_counts);
 

@@ -8,15 +8,27 @@
 
 namespace thermedge {
 
-Status SelectionOptions::check() const { return check_ranges(*this, "selection."); }
+Status SelectionOptions::check() const {
+  return check_ranges(*this, "selection.").and_then([&]() -> Status {
+    if (min_contrast.unit == ContrastUnit::kDegc && degc_per_count == 0) {
+      return failure(
+          ErrorCode::kInvalidArgument,
+          "selection.min_contrast = " + detail::quantity_text(min_contrast, kContrastUnits) +
+              " needs the worth of a count: set selection.degc_per_count (on the command line "
+              "--degc-per-count or --camera)",
+          "selection.min_contrast");
+    }
+    return {};
+  });
+}
 
-Status EdgeSelector::run(EdgeSet& edges) {
+Status EdgeSelector::run(EdgeSet& edges, double counts_per_unit) {
   if (Status status = options_.check(); !status) {
     return status;
   }
   bool in_order = true;
   for (Edge& edge : edges.edges) {
-    edge.status = judge(edge);
+    edge.status = judge(edge, counts_per_unit);
     in_order = in_order && edge.status == EdgeStatus::kKept;
   }
   rank_of_.reserve(edges.edges.capacity());
@@ -27,14 +39,28 @@ Status EdgeSelector::run(EdgeSet& edges) {
   return {};
 }
 
-EdgeStatus EdgeSelector::judge(const Edge& edge) const {
+EdgeStatus EdgeSelector::judge(const Edge& edge, double counts_per_unit) const {
   if (edge.score < options_.min_score) {
     return EdgeStatus::kWeak;
   }
   if (options_.max_false_alarms > 0 && edge.log10_nfa > std::log10(options_.max_false_alarms)) {
     return EdgeStatus::kInsignificant;
   }
-  return EdgeStatus::kKept;
+  return has_contrast(edge, counts_per_unit) ? EdgeStatus::kKept : EdgeStatus::kLowContrast;
+}
+
+// Edges of edge maps have no contrast, and pass.
+bool EdgeSelector::has_contrast(const Edge& edge, double counts_per_unit) const {
+  const double wanted = options_.min_contrast.value;
+  switch (options_.min_contrast.unit) {
+    case ContrastUnit::kCounts:
+      return !(edge.contrast_counts < wanted * counts_per_unit);
+    case ContrastUnit::kSigma:
+      return !(edge.contrast_sigmas < wanted);
+    case ContrastUnit::kDegc:
+      return !(edge.contrast_counts * options_.degc_per_count < wanted * counts_per_unit);
+  }
+  return true;
 }
 
 void EdgeSelector::reorder(EdgeSet& edges) {

@@ -54,6 +54,16 @@ double trimmed_mean(std::vector<double>& values, double share) {
   return sum / static_cast<double>(static_cast<std::ptrdiff_t>(values.size()) - 2 * cut);
 }
 
+// Root mean square of the map's levels along an edge.
+double level_along(const NoiseLevelMap& map, const Edgels& edgels, Range range) {
+  double squares = 0;
+  for (std::size_t i = range.first; i < range.first + range.count; ++i) {
+    const double level = map.at(static_cast<int>(edgels.x[i]), static_cast<int>(edgels.y[i]));
+    squares += level * level;
+  }
+  return std::sqrt(squares / range.count);
+}
+
 // Of an edge, counts.
 struct Step {
   double counts = 0;  // contrast less the slope
@@ -334,6 +344,8 @@ void SignificanceTest::run(ImageView<const std::uint16_t> frame, const NoiseMode
     self.orient(pixels, edge, edgels);
     detail::Contrast contrast = self.contrast_of(frame, edgels, edge.edgels);
     detail::take_contrast(frame, noise.level_counts, edgels, edge, contrast);
+    edge.contrast_sigmas = detail::in_sigmas(
+        edge.contrast_counts, noise.level_counts * level_along(noise.map, edgels, edge.edgels));
     const double slope =
         self.explained(frame, edgels, edge.edgels, noise.level_counts, contrast.counts);
     contrast.counts = std::max(contrast.counts - slope, 0.0);

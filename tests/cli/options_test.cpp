@@ -33,7 +33,8 @@ class Options : public ProgramTest {
 // All options as --dump-config prints them give the same edges as those they came from.
 TEST_F(Options, ADumpedConfigurationGivesTheSameEdges) {
   for (const std::string options :
-       {"--denoise gaussian", "--preset fast --keep 4",
+       {"--denoise gaussian", "--preset fast --keep 4", "--min-contrast 15sigma",
+        "--min-contrast 3degC --camera optris",
         "--preset paper --denoise gaussian --set contours.min_component_px=12 --set "
         "linking.gap_px=4.5",
         "--denoise none --sigma 4.25 --max-false-alarms 0.5 --set bad_pixels.threshold_sigmas=9"}) {
@@ -123,6 +124,50 @@ TEST_F(Options, FewerFalseAlarmsAreFewerEdges) {
   }
   EXPECT_TRUE(std::is_sorted(found.begin(), found.end()));
   EXPECT_LT(found.front(), found.back());
+}
+
+// One option in three units, whose worth the frame and the camera tell.
+TEST_F(Options, MinContrastDropsTheEdgesThatHaveLess) {
+  const auto all = edges("");
+  const auto wanted = [&](const std::string& key, double least) {
+    nlohmann::json kept = nlohmann::json::array();
+    for (const auto& edge : all) {
+      if (edge[key].get<double>() >= least) {
+        kept.push_back(edge["points"]);
+      }
+    }
+    EXPECT_GT(kept.size(), 0U);
+    EXPECT_LT(kept.size(), all.size());
+    return kept;
+  };
+  const auto points = [&](const std::string& arguments) {
+    nlohmann::json kept = nlohmann::json::array();
+    for (const auto& edge : edges(arguments)) {
+      kept.push_back(edge["points"]);
+    }
+    return kept;
+  };
+  EXPECT_EQ(points("--min-contrast 90"), wanted("contrast_counts", 90));
+  EXPECT_EQ(points("--min-contrast 90counts"), wanted("contrast_counts", 90));
+  EXPECT_EQ(points("--min-contrast 15sigma"), wanted("contrast_sigmas", 15));
+  EXPECT_EQ(points("--min-contrast 0.9degC --degc-per-count 0.01"), wanted("contrast_counts", 90));
+  EXPECT_EQ(points("--min-contrast 9degC --camera optris"), wanted("contrast_counts", 90));
+  EXPECT_EQ(points("--min-contrast 0"), points(""));
+  const std::string line = output_of("detect " + std::string(kScene) + " -o - --min-contrast 90");
+  const auto dropped = nlohmann::json::parse(line, nullptr, false)["stats"]["edges_dropped"];
+  EXPECT_EQ(dropped["low_contrast"], all.size() - wanted("contrast_counts", 90).size());
+}
+
+TEST_F(Options, AContrastInDegreesNeedsACameraInProportionToThem) {
+  expect_one_line_each(
+      {{"detect x --min-contrast 0.5degC", 2, "--degc-per-count or --camera"},
+       {"detect x --min-contrast 0.5K", 2, "--min-contrast: selection.min_contrast = '0.5K'"},
+       {"detect x --min-contrast 1degC --camera nikon", 2, "--camera: camera nikon"},
+       {"detect x --min-contrast 1degC --camera planck:17096,1428,1,-342,0.0466", 2,
+        "not in proportion"},
+       {"detect x --preset paper --min-contrast 3", 2, "preset paper does not use it"},
+       {"detect x --preset paper --camera optris", 2, "selection.degc_per_count is used with"}},
+      directory_);
 }
 
 TEST_F(Options, ThreadsAndInstructionSetsDoNotShow) {

@@ -19,6 +19,17 @@ namespace {
 enum class Colour { kRed, kBlue };
 constexpr std::array kColours = {EnumName{Colour::kRed, "red"}, EnumName{Colour::kBlue, "blue"}};
 
+enum class Length { kMetres, kFeet };
+constexpr std::array kLengths = {EnumName{Length::kMetres, "m"}, EnumName{Length::kFeet, "ft"}};
+
+struct Ladder {
+  Quantity<Length> height = {};
+};
+template <OptionsOf<Ladder> O, class V>
+void visit_options(O& o, V&& v) {
+  v("height", o.height, QuantityRange{Bounds{0, 20}, kLengths}, "");
+}
+
 struct Inner {
   double share = 0.5;
   int count = 3;
@@ -81,6 +92,21 @@ TEST(CheckRanges, NamesTheFirstOfSeveral) {
   EXPECT_EQ(check_ranges(options, "").error().option, "other.share");
   options.other.share = 0;
   EXPECT_EQ(check_ranges(options, "").error().message, "last = 3 is out of range: 10 to 1e+09");
+}
+
+TEST(CheckRanges, LooksAtTheNumberOfAQuantityWhateverItsUnit) {
+  for (const Length unit : {Length::kMetres, Length::kFeet}) {
+    EXPECT_TRUE(check_ranges(Ladder{{20, unit}}, ""));
+    const Status status = check_ranges(Ladder{{20.5, unit}}, "house.");
+    ASSERT_FALSE(status);
+    EXPECT_EQ(status.error().message, "house.height = 20.5 is out of range: 0 to 20");
+    EXPECT_FALSE(check_ranges(Ladder{{std::nan(""), unit}}, ""));
+  }
+}
+
+TEST(QuantityText, NamesTheUnitUnlessItIsTheFirst) {
+  EXPECT_EQ(detail::quantity_text(Quantity<Length>{2.5}, kLengths), "2.5");
+  EXPECT_EQ(detail::quantity_text(Quantity<Length>{12, Length::kFeet}, kLengths), "12ft");
 }
 
 TEST(ShortestText, ReadsBackAsTheSameNumber) {

@@ -164,6 +164,27 @@ TEST_P(StagesOfPreset, TextsOfTheSheetKeepToTheirPlaces) {
   expect_text_in_place(on_sheet, {0, 0, drawn.figures.sheet.width(), drawn.figures.sheet.height()});
 }
 
+TEST(Stages, TellWhichEdgesHadTooLittleContrastWhereThatIsAskedFor) {
+  (void)Drawn(options_of(Preset::kFast), desk());
+  EXPECT_FALSE(is_written("low contrast"));
+  EXPECT_FALSE(is_written("beyond budget"));
+  DetectorOptions options = options_of(Preset::kFast);
+  options.selection.min_contrast = {30, ContrastUnit::kSigma};
+  options.selection.keep_edges = 2;
+  const Drawn drawn(options, desk());
+  const auto& edges = drawn.found.edges.edges;
+  const auto low = std::count_if(edges.begin(), edges.end(), [](const Edge& edge) {
+    return edge.status == EdgeStatus::kLowContrast;
+  });
+  EXPECT_GT(low, 0);
+  EXPECT_TRUE(is_written("low contrast " + std::to_string(low)));
+  EXPECT_TRUE(is_written("beyond budget"));
+  std::vector<DrawnText> on_sheet;
+  std::copy_if(drawn_text().begin(), drawn_text().end(), std::back_inserter(on_sheet),
+               [](const DrawnText& text) { return text.figure == drawn_text().front().figure; });
+  expect_text_in_place(on_sheet, {0, 0, drawn.figures.sheet.width(), drawn.figures.sheet.height()});
+}
+
 // The best edge has the colour of the first rank along its whole length.
 TEST_P(StagesOfPreset, TheBestEdgeHasTheColourOfTheFirstRank) {
   const Drawn drawn(options_of(GetParam()), step_and_disc());

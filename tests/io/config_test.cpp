@@ -110,6 +110,77 @@ TEST(Setting, SetsEachKindOfOption) {
   EXPECT_EQ(options.denoise.bm3d.profile, Bm3dProfile::kFast);
 }
 
+TEST(Setting, AContrastHasAUnit) {
+  struct Case {
+    std::string text;
+    Quantity<ContrastUnit> read;
+    std::string dumped;
+  };
+  for (const Case& given : {Case{"12", {12, ContrastUnit::kCounts}, "12"},
+                            {"12counts", {12, ContrastUnit::kCounts}, "12"},
+                            {"2.5 sigma", {2.5, ContrastUnit::kSigma}, "\"2.5sigma\""},
+                            {"0.5degC", {0.5, ContrastUnit::kDegc}, "\"0.5degC\""},
+                            {"0", {}, "0"}}) {
+    DetectorOptions options;
+    options.selection.degc_per_count = 0.01;
+    ASSERT_TRUE(apply_setting("selection.min_contrast=" + given.text, options)) << given.text;
+    EXPECT_EQ(options.selection.min_contrast, given.read) << given.text;
+    const std::string dumped = dump_config(options);
+    EXPECT_NE(dumped.find("\nmin_contrast = " + given.dumped + "  #"), std::string::npos) << dumped;
+    DetectorOptions back;
+    ASSERT_TRUE(parse_config(dumped, "dump", PresetChoice::kFree, back));
+    EXPECT_EQ(back.selection.min_contrast, given.read) << given.text;
+    EXPECT_EQ(dump_config(back), dumped);
+    // In a file, as text or as a number.
+    DetectorOptions from_file;
+    const std::string in_quotes =
+        "selection.degc_per_count = 1\nselection.min_contrast = \"" + given.text + "\"\n";
+    ASSERT_TRUE(parse_config(in_quotes, "file", PresetChoice::kFree, from_file)) << given.text;
+    EXPECT_EQ(from_file.selection.min_contrast, given.read) << given.text;
+  }
+}
+
+TEST(Setting, RefusesAContrastThatIsNone) {
+  for (const std::string text : {"", "sigma", "3 sigmas", "3sigma4", "3K", "three"}) {
+    DetectorOptions options;
+    const Status status = apply_setting("selection.min_contrast=" + text, options);
+    ASSERT_FALSE(status) << text;
+    EXPECT_EQ(status.error().message,
+              "selection.min_contrast = '" + text +
+                  "' should be a number of counts, or a number and one of the units counts, "
+                  "sigma, degC");
+    EXPECT_EQ(options.selection.min_contrast, Quantity<ContrastUnit>{});
+  }
+  DetectorOptions options;
+  EXPECT_EQ(apply_setting("selection.min_contrast=-1sigma", options).error().message,
+            "selection.min_contrast = -1 is out of range: 0 to 1e+09");
+  EXPECT_EQ(
+      parse_config("[selection]\nmin_contrast = true\n", "f.toml", PresetChoice::kFree, options)
+          .error()
+          .message,
+      "f.toml: line 2: selection.min_contrast = 'true' should be a number of counts, or a "
+      "number and one of the units counts, sigma, degC");
+}
+
+TEST(Options, OfContrastAreRefusedByPresetPaper) {
+  DetectorOptions paper(Preset::kPaper);
+  EXPECT_EQ(apply_setting("selection.min_contrast=3", paper).error().message,
+            "unknown option 'selection.min_contrast': preset paper does not use it, preset robust "
+            "does");
+  EXPECT_EQ(dump_config(paper).find("min_contrast ="), std::string::npos);
+  paper.selection.min_contrast = {3, ContrastUnit::kSigma};
+  ASSERT_FALSE(paper.check());
+  EXPECT_EQ(paper.check().error().option, "selection.min_contrast");
+  EXPECT_EQ(paper.check().error().message,
+            "selection.min_contrast is used with presets robust and fast only; the preset is "
+            "paper");
+  paper.selection.min_contrast = {};
+  EXPECT_TRUE(paper.check());
+  paper.selection.degc_per_count = 0.01;
+  ASSERT_FALSE(paper.check());
+  EXPECT_EQ(paper.check().error().option, "selection.degc_per_count");
+}
+
 std::string setting_error(const std::string& setting) {
   DetectorOptions options(Preset::kPaper);
   const Status status = apply_setting(setting, options);

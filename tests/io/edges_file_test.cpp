@@ -27,6 +27,8 @@ Detection two_edges() {
   set.edges[0].kept = true;
   set.edges[0].score = 1e-7;
   set.edges[0].z = std::numeric_limits<double>::quiet_NaN();
+  set.edges[0].contrast_counts = 12.3456;
+  set.edges[0].contrast_sigmas = 2.5;
   set.edges[0].edgels = {0, 3};
   set.edges[0].corners = {0, 3};
   set.edges[0].connections = {0, 1};
@@ -50,6 +52,8 @@ TEST(EdgesJson, HoldsTheKeptEdges) {
   EXPECT_EQ(edge["connected"], nlohmann::json::parse("[1]"));
   EXPECT_EQ(edge["score"], 1e-7);
   EXPECT_TRUE(edge["z"].is_null());
+  EXPECT_EQ(edge["contrast_counts"], 12.346);
+  EXPECT_EQ(edge["contrast_sigmas"], 2.5);
   EXPECT_TRUE(edge["closed"]);
   EXPECT_EQ(json["junctions"], nlohmann::json::parse("[[8,1]]"));
   EXPECT_EQ(json["stats"]["edges_found"], 2);
@@ -85,10 +89,38 @@ TEST(EdgesJson, SaysWhatWasMeasuredAndChosen) {
   EXPECT_EQ(json["stats"]["measured"]["kernel_px"], nlohmann::json({1.2, 2.5}));
 }
 
+TEST(EdgesJson, CountsTheDroppedEdgesByTheReason) {
+  Detection detection = two_edges();
+  for (const EdgeStatus status :
+       {EdgeStatus::kWeak, EdgeStatus::kInsignificant, EdgeStatus::kInsignificant,
+        EdgeStatus::kLowContrast, EdgeStatus::kLowContrast, EdgeStatus::kLowContrast,
+        EdgeStatus::kBeyondBudget}) {
+    detection.edges.edges.emplace_back().status = status;
+  }
+  const auto json = nlohmann::json::parse(edges_to_json(detection, ""));
+  EXPECT_EQ(json["stats"]["edges_dropped"],
+            nlohmann::json(
+                {{"weak", 1}, {"insignificant", 2}, {"low_contrast", 3}, {"beyond_budget", 1}}));
+}
+
 TEST(EdgesJson, IsOneLineWhateverTheName) {
   const std::string text = edges_to_json(two_edges(), "a.png");
   EXPECT_EQ(text.find('\n'), text.size() - 1);
   EXPECT_TRUE(nlohmann::json::accept(text));
+}
+
+TEST(EdgesSvg, TitlesSayHowSureAndHowStrongWhereThatIsKnown) {
+  Detection detection = two_edges();
+  detection.edges.edges[0].log10_nfa = -7.128;
+  EXPECT_NE(
+      edges_to_svg(detection, "")
+          .find(" px, log10 of false alarms -7.13, contrast 12.35 counts = 2.5 sigma</title>"),
+      std::string::npos);
+  Edge& edge = detection.edges.edges[0];
+  edge.log10_nfa = -std::numeric_limits<double>::infinity();
+  edge.contrast_sigmas = std::numeric_limits<double>::infinity();
+  EXPECT_NE(edges_to_svg(detection, "").find(" px, contrast 12.35 counts</title>"),
+            std::string::npos);
 }
 
 TEST(EdgesSvg, DrawsClosedPathsAndEscapesNames) {

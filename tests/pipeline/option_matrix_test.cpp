@@ -64,6 +64,18 @@ class OptionCollector {
     options.push_back(std::move(option));
   }
 
+  template <class Unit, std::size_t N>
+  void operator()(std::string_view name, const Quantity<Unit>& value,
+                  const QuantityRange<Unit, N>& range, std::string_view) {
+    Option option{prefix_ + std::string(name), detail::quantity_text(value, range.units), {}};
+    for (const EnumName<Unit>& unit : range.units) {
+      for (const double number : {1.0, 10.0, 100.0}) {
+        option.others.push_back(text_of(number) + std::string(unit.name));
+      }
+    }
+    options.push_back(std::move(option));
+  }
+
   template <class O>
   void group(std::string_view name, const O& nested) {
     const std::string outer = prefix_;
@@ -102,6 +114,9 @@ constexpr std::array kNeeds = {
     Need{"denoise.sigma_scale", "denoise.method=bm3d"},
     // Its reach matters where the filter is on at all.
     Need{"denoise.bilateral.space_px", "denoise.bilateral.range_sigmas=0.5"},
+    // The worth of a count matters where a contrast is asked for in degrees.
+    Need{"selection.degc_per_count", "selection.degc_per_count=1"},
+    Need{"selection.degc_per_count", "selection.min_contrast=20degC"},
 };
 
 Settings needs_of(const std::string& option) {

@@ -332,6 +332,31 @@ TEST(Detector, TakesFramesOfEveryPixelType) {
               kDegcPerCount * wanted.edges.edges[0].contrast_counts, 0.02);
 }
 
+// What is asked for in the unit of a float frame is what the result says in that unit.
+TEST(Detector, TheSmallestContrastIsInTheUnitOfTheFrame) {
+  const auto frame = small_desk(20);
+  Image<float> degc(frame.counts.width(), frame.counts.height());
+  for (int y = 0; y < degc.height(); ++y) {
+    for (int x = 0; x < degc.width(); ++x) {
+      degc(x, y) = 0.01F * static_cast<float>(frame.counts(x, y)) - 40;
+    }
+  }
+  DetectorOptions options;
+  const Detection all = *detector(options).detect(degc);
+  const double least = all.kept_edges()[all.edges.kept / 2].contrast_counts;
+  ASSERT_LT(least, 40) << "degrees";
+  options.selection.min_contrast.value = least;
+  const Detection strong = *detector(options).detect(degc);
+  const auto expected =
+      std::count_if(all.kept_edges().begin(), all.kept_edges().end(),
+                    [&](const Edge& edge) { return edge.contrast_counts >= least; });
+  EXPECT_NEAR(static_cast<double>(strong.edges.kept), static_cast<double>(expected), 1);
+  EXPECT_LT(strong.edges.kept, all.edges.kept);
+  for (const Edge& edge : strong.kept_edges()) {
+    EXPECT_GE(edge.contrast_counts, 0.999999 * least);
+  }
+}
+
 TEST(Detector, InvalidPixelsMakeNoEdges) {
   const auto frame = small_desk(20);
   Image<float> holed(frame.counts.width(), frame.counts.height());

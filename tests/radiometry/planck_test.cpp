@@ -148,6 +148,7 @@ TEST(CountsModel, KnowsTheCameras) {
     ASSERT_TRUE(model) << camera;
     EXPECT_NEAR(model->to_degc(counts), degc, 1e-9) << camera;
     EXPECT_NEAR(model->to_counts(degc), counts, 1e-7) << camera;
+    EXPECT_TRUE(model->is_linear()) << camera;
   }
   EXPECT_GE(camera_models().size(), 4U);
 }
@@ -156,6 +157,7 @@ TEST(CountsModel, PlanckOfAFlirCamera) {
   // Constants in the range that FLIR E-series pictures carry.
   const auto model = parse_counts_model("planck:14906.216,1396.5,1,-7261,0.010956882");
   ASSERT_TRUE(model);
+  EXPECT_FALSE(model->is_linear());
   // By hand: S + O = 8739, R1 / (R2 8739) = 155.676, ln(156.676) = 5.05418, 1396.5 / that =
   // 276.306.
   EXPECT_NEAR(model->to_degc(16000), 276.306 - 273.15, 0.01);

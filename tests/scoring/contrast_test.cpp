@@ -70,6 +70,7 @@ TEST(Measure, GivesTheContrastOfASharpStep) {
   measure_contrast(frame, 5, set);
   const Edge& edge = set.edges[0];
   EXPECT_NEAR(edge.contrast_counts, 200, 4);
+  EXPECT_DOUBLE_EQ(edge.contrast_sigmas, edge.contrast_counts / 5);
   EXPECT_NEAR(edge.z, edge.contrast_counts / (5 * std::sqrt(2 / (3 * 70.0))), 1e-9 * edge.z);
   EXPECT_LT(edge.log10_nfa, -10000);
 }
@@ -201,6 +202,8 @@ TEST(Measure, OfAFrameWithoutNoiseIsCertain) {
   EXPECT_EQ(set.edges[0].z, std::numeric_limits<double>::infinity());
   EXPECT_EQ(set.edges[0].log10_nfa, -std::numeric_limits<double>::infinity());
   EXPECT_NEAR(set.edgels.position_sigma_px[0], 1 / std::sqrt(12.0), 1e-6);
+  EXPECT_EQ(set.edges[0].contrast_sigmas, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(set.edges[1].contrast_sigmas, 0);
   EXPECT_EQ(set.edges[1].z, 0);
   EXPECT_TRUE(std::isfinite(set.edges[1].log10_nfa));
 }

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <vector>
 
 namespace thermedge {
@@ -95,6 +96,94 @@ TEST(EdgeSelector, EdgesThatFailGoBehindTheOthers) {
   ASSERT_EQ(set.connections_of(set.edges[2]).size(), 1U);
   EXPECT_EQ(set.connections_of(set.edges[2])[0], 3);
   EXPECT_EQ(set.connections_of(set.edges[3])[0], 2);
+}
+
+// Contrasts of 8, 6, 4 and 2 counts; the noise is stronger where the second edge lies.
+EdgeSet edges_with_contrast() {
+  EdgeSet set = four_edges({-9, -9, -9, -9}, {4, 3, 2, 1});
+  const std::vector<double> sigmas = {4, 1.5, 2, 1};
+  for (std::size_t i = 0; i < 4; ++i) {
+    set.edges[i].contrast_counts = 8 - 2 * static_cast<double>(i);
+    set.edges[i].contrast_sigmas = sigmas[i];
+  }
+  return set;
+}
+
+// The contrasts in counts of what is kept; the others must be said to have too little of it.
+std::vector<double> kept_contrasts(const SelectionOptions& options, double counts_per_unit = 1) {
+  EdgeSet set = edges_with_contrast();
+  EXPECT_TRUE(EdgeSelector(options).run(set, counts_per_unit));
+  std::vector<double> kept;
+  for (const Edge& edge : set.edges) {
+    EXPECT_EQ(edge.status, edge.kept ? EdgeStatus::kKept : EdgeStatus::kLowContrast);
+    if (edge.kept) {
+      kept.push_back(edge.contrast_counts);
+    }
+  }
+  return kept;
+}
+
+TEST(EdgeSelector, DropsWhatHasLessContrastThanAskedFor) {
+  using Kept = std::vector<double>;
+  const auto asked = [](double value, ContrastUnit unit, double degc_per_count = 0) {
+    SelectionOptions options;
+    options.min_contrast = {value, unit};
+    options.degc_per_count = degc_per_count;
+    return options;
+  };
+  EXPECT_EQ(kept_contrasts({}), (Kept{8, 6, 4, 2}));
+  EXPECT_EQ(kept_contrasts(asked(4, ContrastUnit::kCounts)), (Kept{8, 6, 4}))
+      << "as much is enough";
+  EXPECT_EQ(kept_contrasts(asked(4.01, ContrastUnit::kCounts)), (Kept{8, 6}));
+  EXPECT_EQ(kept_contrasts(asked(2, ContrastUnit::kSigma)), (Kept{8, 4}));
+  EXPECT_EQ(kept_contrasts(asked(0.25, ContrastUnit::kDegc, 0.0625)), (Kept{8, 6, 4}));
+  // Units of a float frame of which one is 3 counts; those of the noise are the same.
+  EXPECT_EQ(kept_contrasts(asked(2, ContrastUnit::kCounts), 3), (Kept{8, 6}));
+  EXPECT_EQ(kept_contrasts(asked(2, ContrastUnit::kDegc, 1), 3), (Kept{8, 6}));
+  EXPECT_EQ(kept_contrasts(asked(2, ContrastUnit::kSigma), 3), (Kept{8, 4}));
+}
+
+TEST(EdgeSelector, ContrastIsAskedForLast) {
+  SelectionOptions options{.min_score = 1.5, .max_false_alarms = 0.01, .min_contrast = {100}};
+  EdgeSet set = four_edges({-1, -5, -5, -5}, {4, 3, 2, 1});
+  ASSERT_TRUE(EdgeSelector(options).run(set));
+  EXPECT_EQ(set.kept, 0U);
+  const std::vector<EdgeStatus> expected = {EdgeStatus::kInsignificant, EdgeStatus::kLowContrast,
+                                            EdgeStatus::kLowContrast, EdgeStatus::kWeak};
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(set.edges[i].status, expected[i]);
+  }
+}
+
+// Without noise any contrast is enough; an edge map has none that could be too little.
+TEST(EdgeSelector, KeepsEdgesWhoseContrastIsInfiniteOrUnknown) {
+  for (const double contrast :
+       {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
+    for (const ContrastUnit unit : {ContrastUnit::kCounts, ContrastUnit::kSigma}) {
+      EdgeSet set = edges_with_contrast();
+      for (Edge& edge : set.edges) {
+        edge.contrast_counts = edge.contrast_sigmas = contrast;
+      }
+      SelectionOptions options;
+      options.min_contrast = {5, unit};
+      ASSERT_TRUE(EdgeSelector(options).run(set));
+      EXPECT_EQ(set.kept, 4U);
+    }
+  }
+}
+
+TEST(EdgeSelector, DegreesNeedTheWorthOfACount) {
+  EdgeSet set;
+  SelectionOptions options;
+  options.min_contrast = {0.5, ContrastUnit::kDegc};
+  const Status status = EdgeSelector(options).run(set);
+  ASSERT_FALSE(status);
+  EXPECT_EQ(status.error().option, "selection.min_contrast");
+  EXPECT_EQ(status.error().message,
+            "selection.min_contrast = 0.5degC needs the worth of a count: set "
+            "selection.degc_per_count (on the command line --degc-per-count or --camera)");
+  options.degc_per_count = 0.01;
+  EXPECT_TRUE(EdgeSelector(options).run(set));
 }
 
 TEST(EdgeSelector, KeepsTheJunctionsOfKeptEdges) {

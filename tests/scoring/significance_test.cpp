@@ -122,6 +122,25 @@ Edge judged(ImageView<const std::uint16_t> frame, const Points& points, const No
 
 double step_at(int x, int at, double counts) { return x < at ? 0 : x == at ? counts / 2 : counts; }
 
+// Of the same step, measured where the noise is as strong as its level, and where it is twice that.
+TEST(Significance, ContrastInSigmasIsThatOverTheNoiseOfThePlace) {
+  const auto frame = frame_of(kSigma, [](int x, int) { return step_at(x, 120, 40); });
+  NoiseModel noise = noise_of(kSigma);
+  Image<float> nodes(2, 2);
+  nodes(0, 0) = nodes(1, 0) = 1;
+  nodes(0, 1) = nodes(1, 1) = 2;
+  noise.map.set_nodes(nodes, kWidth, kHeight);
+  const Edge above = judged(frame, along_column(120, 0, 4), noise);
+  const Edge below = judged(frame, along_column(120, kHeight - 4, 4), noise);
+  EXPECT_NEAR(above.contrast_sigmas, above.contrast_counts / kSigma, 1e-9);
+  EXPECT_NEAR(below.contrast_sigmas, below.contrast_counts / (2 * kSigma), 1e-9);
+  // Whatever its length: that is what z is for.
+  const Edge longer = judged(frame, along_column(120, 40, 120), noise_of(kSigma));
+  EXPECT_NEAR(longer.contrast_sigmas, 5, 0.5);
+  EXPECT_GT(longer.z, 20);
+  EXPECT_TRUE(std::isinf(judged(frame, along_column(120, 40, 60), NoiseModel{}).contrast_sigmas));
+}
+
 // The contrast is known, and so is its spread: .4375 of white noise's variance for each edgel, and
 // a part of the slope's that is small where none is found.
 TEST(Significance, OfAClearStepIsItsContrastOverTheNoise) {

@@ -70,6 +70,8 @@ class CountsModel {
   // NaN where the model has no such temperature or count.
   [[nodiscard]] double to_degc(double counts) const;
   [[nodiscard]] double to_counts(double degc) const;
+  // Whether a count is worth the same everywhere.
+  [[nodiscard]] bool is_linear() const { return std::holds_alternative<LinearResponse>(response_); }
   // Worth of a count at `counts`, degC.
   [[nodiscard]] double degc_per_count(double counts) const;
 

@@ -3,6 +3,7 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <fstream>
 #include <optional>
@@ -32,6 +33,28 @@ Status assign_enum(const std::string& key, std::string_view text, const Names& n
   }
   return failure(ErrorCode::kInvalidArgument,
                  key + " = '" + std::string(text) + "' is none of " + list_names(names));
+}
+
+// "3sigma", "3 sigma" or, in the first unit, "3".
+template <class Unit, std::size_t N>
+Status assign_quantity(const std::string& key, std::string_view text,
+                       const std::array<EnumName<Unit>, N>& units, Quantity<Unit>& field) {
+  Quantity<Unit> read{0, units[0].value};
+  const char* end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, read.value);
+  std::string_view name(stop, static_cast<std::size_t>(end - stop));
+  name.remove_prefix(std::min(name.find_first_not_of(' '), name.size()));
+  const auto unit = std::find_if(units.begin(), units.end(),
+                                 [&](const EnumName<Unit>& known) { return known.name == name; });
+  if (error != std::errc{} || !(name.empty() || unit != units.end())) {
+    return failure(ErrorCode::kInvalidArgument,
+                   key + " = '" + std::string(text) + "' should be a number of " +
+                       std::string(units[0].name) + ", or a number and one of the units " +
+                       list_names(units));
+  }
+  read.unit = name.empty() ? read.unit : unit->value;
+  field = read;
+  return {};
 }
 
 template <class T>
@@ -72,6 +95,15 @@ class TableReader {
       keep(assign_enum(prefix_ + std::string(name), node->value_or(std::string_view{}), names,
                        field),
            node);
+    }
+  }
+
+  template <class Unit, std::size_t N>
+  void operator()(std::string_view name, Quantity<Unit>& field, const QuantityRange<Unit, N>& range,
+                  std::string_view) {
+    if (const toml::node* node = take(name)) {
+      const std::string text = node->value<std::string>().value_or(text_of(*node));
+      keep(assign_quantity(prefix_ + std::string(name), text, range.units, field), node);
     }
   }
 
@@ -154,11 +186,16 @@ class SettingApplier {
   void operator()(std::string_view name, T& field, Bounds bounds, std::string_view) {
     if (matches(name)) {
       status_ = parse(field);
-      const auto number = static_cast<double>(field);
-      if (status_ && !(number >= bounds.min && number <= bounds.max)) {
-        status_ = failure(ErrorCode::kInvalidArgument,
-                          detail::out_of_range(std::string(key_), number, bounds));
-      }
+      check_range(static_cast<double>(field), bounds);
+    }
+  }
+
+  template <class Unit, std::size_t N>
+  void operator()(std::string_view name, Quantity<Unit>& field, const QuantityRange<Unit, N>& range,
+                  std::string_view) {
+    if (matches(name)) {
+      status_ = assign_quantity(std::string(key_), text_, range.units, field);
+      check_range(field.value, range.bounds);
     }
   }
 
@@ -204,6 +241,13 @@ class SettingApplier {
       similar_ += (similar_.empty() ? "" : ", ") + full;
     }
     return false;
+  }
+
+  void check_range(double number, Bounds bounds) {
+    if (status_ && !(number >= bounds.min && number <= bounds.max)) {
+      status_ = failure(ErrorCode::kInvalidArgument,
+                        detail::out_of_range(std::string(key_), number, bounds));
+    }
   }
 
   template <class T>
@@ -255,6 +299,13 @@ class Dumper {
         line(name, '"' + std::string(known.name) + '"', help);
       }
     }
+  }
+
+  template <class Unit, std::size_t N>
+  void operator()(std::string_view name, const Quantity<Unit>& field,
+                  const QuantityRange<Unit, N>& range, std::string_view help) {
+    const std::string text = detail::quantity_text(field, range.units);
+    line(name, field.unit == range.units[0].value ? text : '"' + text + '"', help);
   }
 
   template <class O>

@@ -33,6 +33,7 @@ Json to_json(const EdgeSet& set, const Edge& edge) {
           {"ends_at_invalid", edge.ends_at_invalid},
           {"length_px", rounded(edge.length_px)},
           {"contrast_counts", rounded(edge.contrast_counts)},
+          {"contrast_sigmas", rounded(edge.contrast_sigmas)},
           {"corners", set.corners_of(edge)},
           {"connected", set.connections_of(edge)},
           {"points", std::move(points)}};
@@ -48,7 +49,7 @@ Json to_json(const StageTimes& times) {
 }
 
 struct StatusCounts {
-  std::size_t weak = 0, insignificant = 0, beyond_budget = 0;
+  std::size_t weak = 0, insignificant = 0, low_contrast = 0, beyond_budget = 0;
 };
 
 // Of the nodes of the map: the least and the greatest; 1 and 1 where the noise is even.
@@ -99,6 +100,7 @@ StatusCounts count_statuses(const EdgeSet& set) {
   for (const Edge& edge : set.edges) {
     counts.weak += edge.status == EdgeStatus::kWeak ? 1 : 0;
     counts.insignificant += edge.status == EdgeStatus::kInsignificant ? 1 : 0;
+    counts.low_contrast += edge.status == EdgeStatus::kLowContrast ? 1 : 0;
     counts.beyond_budget += edge.status == EdgeStatus::kBeyondBudget ? 1 : 0;
   }
   return counts;
@@ -114,6 +116,7 @@ Json to_json(const InvalidPixels& invalid) {
 Json to_json(const StatusCounts& counts) {
   return {{"weak", counts.weak},
           {"insignificant", counts.insignificant},
+          {"low_contrast", counts.low_contrast},
           {"beyond_budget", counts.beyond_budget}};
 }
 

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <cstddef>
 #include <iterator>
 #include <string>
@@ -36,6 +37,9 @@ std::size_t character_length(std::string_view text) {
       code < 0xD800 || (code > 0xDFFF && code < 0xFFFE) || (code > 0xFFFF && code <= 0x10FFFF);
   return allowed && code >= kLeastOfLength[length] ? length : 0;
 }
+
+// Two digits after the point say all that is known of a contrast.
+double shortened(double value) { return std::round(value * 100) / 100; }
 
 // Builds SVG text; numbers do not depend on the locale.
 class SvgText {
@@ -81,6 +85,19 @@ class SvgText {
   std::string text_;
 };
 
+// How sure and how strong, where a frame tells. Without noise an edge is certain.
+void append_evidence(SvgText& svg, const Edge& edge) {
+  if (std::isfinite(edge.log10_nfa)) {
+    svg << ", log10 of false alarms " << shortened(edge.log10_nfa);
+  }
+  if (std::isfinite(edge.contrast_counts)) {
+    svg << ", contrast " << shortened(edge.contrast_counts) << " counts";
+  }
+  if (std::isfinite(edge.contrast_sigmas)) {
+    svg << " = " << shortened(edge.contrast_sigmas) << " sigma";
+  }
+}
+
 void append_edge(SvgText& svg, const EdgeSet& set, const Edge& edge, Rgb colour) {
   const Edgels& e = set.edgels;
   svg << "<path id=\"edge" << edge.index << "\" stroke=\"" << colour << "\" d=\"";
@@ -89,7 +106,9 @@ void append_edge(SvgText& svg, const EdgeSet& set, const Edge& edge, Rgb colour)
     svg << (i == 0 ? "M" : "L") << e.x[at] << " " << e.y[at];
   }
   svg << (edge.closed ? "Z" : "") << "\"><title>edge " << edge.index << ", rank " << edge.rank
-      << ", score " << edge.score << ", " << edge.length_px << " px</title></path>\n";
+      << ", score " << edge.score << ", " << edge.length_px << " px";
+  append_evidence(svg, edge);
+  svg << "</title></path>\n";
   for (const std::uint32_t corner : set.corners_of(edge)) {
     const std::uint32_t at = edge.edgels.first + corner;
     svg << "<rect x=\"" << e.x[at] - 0.5 << "\" y=\"" << e.y[at] - 0.5
