@@ -28,13 +28,20 @@ void Console::line(std::string_view level, std::string_view message) {
     fmt::print(stderr, "{}\n",
                entry.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
   } else {
-    fmt::print(stderr, "thermedge: {}{}\n", level == "error" ? "error: " : "", message);
+    fmt::print(stderr, "thermedge: {}{}\n", level == "info" ? "" : fmt::format("{}: ", level),
+               message);
   }
 }
 
 void Console::error(std::string_view message) {
   ++errors_;
   line("error", message);
+}
+
+void Console::warn(std::string_view message) {
+  if (!quiet_) {
+    line("warning", message);
+  }
 }
 
 int Console::fail(const Error& failure) {

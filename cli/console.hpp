@@ -18,8 +18,9 @@ class Console {
  public:
   Console(bool quiet, bool json_log);
 
-  // One line each; errors are counted. Notes are left out by --quiet.
+  // One line each; errors are counted. Warnings and notes are left out by --quiet.
   void error(std::string_view message);
+  void warn(std::string_view message);
   void note(std::string_view message);
 
   // Reports what keeps a command from starting; returns its exit code.

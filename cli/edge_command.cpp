@@ -1,5 +1,6 @@
 #include "edge_command.hpp"
 
+#include "clipping_warning.hpp"
 #include "result_writer.hpp"
 
 namespace thermedge::cli {
@@ -21,9 +22,13 @@ int EdgeCommand::run_on_frames(const Step& step) const {
         if (!detector) {
           return console.fail(detector.error());
         }
+        const PaperOptions* paper = options.paper();
+        ClippingWarning clipping("--set grey_scale.gain=", paper ? paper->grey_scale.gain : 0,
+                                 ", and --preset robust or fast scale nothing");
         Detection detection;
         return for_each_frame(common, source, console, [&](const io::SourceFrame& frame) {
           return step(*detector, frame, detection).and_then([&] {
+            clipping.frame(frame.source, frame.counts, detection.clipped, console);
             return writer->write(detection, frame.counts, frame.source, frame.stem);
           });
         });

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "clipping_warning.hpp"
 #include "commands.hpp"
 #include "common.hpp"
 #include "picture_output.hpp"
@@ -45,9 +46,11 @@ int ScaleCommand::run_algorithm1(const io::SourceOptions& source, Console& repor
     return report.fail(status.error());
   }
   PictureOutput output(common.output);
+  ClippingWarning clipping("--gain ", options.gain, "");
   Image<std::uint8_t> levels;
   return for_each_frame(common, source, report, [&](const io::SourceFrame& frame) -> Status {
     levels.resize(frame.counts.width(), frame.counts.height());
+    clipping.frame(frame.source, frame.counts, clipped_shares(frame.counts, options), report);
     return scale_to_8bit(frame.counts, options, levels).and_then([&] {
       return write(frame, levels, output);
     });
@@ -89,6 +92,7 @@ int ScaleCommand::run_stable(const io::SourceOptions& source, Console& report) c
   }
   PictureOutput output(common.output);
   StableGreyScale stable_grey_scale(options);
+  std::optional<ClippingWarning> clipping;  // of the gain that the first frame has chosen
   Image<std::uint8_t> levels;
   std::string lines;
   std::int64_t index = 0;
@@ -98,6 +102,11 @@ int ScaleCommand::run_stable(const io::SourceOptions& source, Console& report) c
         return stable_grey_scale.run(frame.counts, levels)
             .and_then([&](const GreyScaleState& state) {
               lines += state_line(frame, index++, state);
+              if (!clipping) {
+                clipping.emplace("--gain ", state.gain, "");
+              }
+              clipping->frame(frame.source, frame.counts,
+                              {state.clipped_low_share, state.clipped_high_share}, report);
               return write(frame, levels, output);
             });
       });

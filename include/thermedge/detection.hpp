@@ -7,6 +7,7 @@
 #include "thermedge/edge_set.hpp"
 #include "thermedge/image.hpp"
 #include "thermedge/presets.hpp"
+#include "thermedge/radiometry/grey_scale.hpp"
 #include "thermedge/stage_times.hpp"
 #include "thermedge/stages/contours.hpp"
 #include "thermedge/stages/linking.hpp"
@@ -29,6 +30,7 @@ struct Detection {
   double sigma_counts = 0;  // the noise that the denoiser was told; 0: none, so it copied the frame
   double threshold_low = 0,
          threshold_high = 0;  // hysteresis: Sobel magnitude in grey levels, or unit_counts
+  ClippedShares clipped;      // by Algorithm 1, of the valid pixels; preset paper on 16 bits only
   double unit_counts = 0;     // of the oriented filter's thresholds; 0 for preset paper
   KernelSize kernel_px{0, 0};
   EdgeSet edges;

@@ -44,6 +44,7 @@ void begin(Detection& found, Preset preset, int width, int height) {
   found.corrections.counts_per_unit = 1;
   found.corrections.offset = 0;
   found.sigma_counts = found.threshold_low = found.threshold_high = 0;
+  found.clipped = {};
   found.unit_counts = 0;
   found.kernel_px = {0, 0};
   found.edges.clear();

@@ -12,7 +12,7 @@ Status PaperPipeline::detect(const Frame& frame, const Call& call, Detection& fo
   StageClock clock(found.times, call.stop);
   counts_ = preprocessor_.run(frame, call.runner, found.corrections);
   THERMEDGE_TRY(clock.lap("correct", {}));
-  THERMEDGE_TRY(clock.lap("scale", scale(counts_, frame.bits)));
+  THERMEDGE_TRY(clock.lap("scale", scale(frame.bits, found)));
   THERMEDGE_TRY(clock.lap("denoise", denoise(frame.bits, call.runner, found)));
   THERMEDGE_TRY(clock.lap("edge_pixels", find_edge_pixels(call.runner, found)));
   THERMEDGE_TRY(trace_and_score(clock, found));
@@ -67,13 +67,14 @@ PaperPipeline::PaperPipeline(const DetectorOptions& options, const PaperOptions&
                 .max_edgels = options.selection.max_edgels}) {}
 
 // Algorithm 1. 8-bit pictures are grey levels already.
-Status PaperPipeline::scale(ImageView<const std::uint16_t> counts, int bits) {
-  levels_.resize(counts.width(), counts.height());
+Status PaperPipeline::scale(int bits, Detection& found) {
+  levels_.resize(counts_.width(), counts_.height());
   if (bits == 8) {
-    copy_pixels(counts, levels_.view());
+    copy_pixels(counts_, levels_.view());
     return {};
   }
-  return scale_to_8bit(counts, grey_scale_, levels_);
+  found.clipped = clipped_shares(counts_, grey_scale_, preprocessor_.valid());
+  return scale_to_8bit(counts_, grey_scale_, levels_);
 }
 
 // Section 3: the noise in grey levels is the noise in counts times the gain.

@@ -30,7 +30,7 @@ class PaperPipeline final : public Pipeline {
   }
 
  private:
-  Status scale(ImageView<const std::uint16_t> counts, int bits);
+  Status scale(int bits, Detection& found);
   Status denoise(int bits, ParallelRunner& runner, Detection& found);
   Status find_edge_pixels(ParallelRunner& runner, Detection& found);
   Status find_corners();

@@ -13,6 +13,7 @@ namespace {
 constexpr std::size_t kCountValues = std::numeric_limits<std::uint16_t>::max() + std::size_t{1};
 
 constexpr double kMiddleLevel = 127;  // of the median (Algorithm 1)
+constexpr double kLargestLevel = 255;
 
 template <class T>
 std::string size_text(ImageView<T> image) {
@@ -59,6 +60,31 @@ Status scale_to_8bit(ImageView<const std::uint16_t> frame, const GreyScaleOption
                       levels.row(y));
   }
   return {};
+}
+
+ClippedShares clipped_shares(ImageView<const std::uint16_t> frame, const GreyScaleOptions& options,
+                             ImageView<const std::uint8_t> valid) {
+  const int median = median_counts(frame);
+  // Levels are rounded away from zero before they are clamped.
+  const double too_low = median - (kMiddleLevel + 0.5) / options.gain;
+  const double too_high = median + (kLargestLevel + 0.5 - kMiddleLevel) / options.gain;
+  std::size_t pixels = 0;
+  std::size_t low = 0;
+  std::size_t high = 0;
+  for (int y = 0; y < frame.height(); ++y) {
+    for (int x = 0; x < frame.width(); ++x) {
+      if (!valid.empty() && valid(x, y) == 0) {
+        continue;
+      }
+      ++pixels;
+      low += frame(x, y) <= too_low ? 1 : 0;
+      high += frame(x, y) >= too_high ? 1 : 0;
+    }
+  }
+  const auto share = [&](std::size_t number) {
+    return pixels > 0 ? static_cast<double>(number) / static_cast<double>(pixels) : 0;
+  };
+  return {share(low), share(high)};
 }
 
 CountRange count_range(ImageView<const std::uint16_t> frame) {

@@ -42,6 +42,44 @@ TEST_F(Messages, UnknownWordsAreBadUsage) {
   expect_one_line_each(cases, directory_);
 }
 
+// Of a frame a quarter of which is far hotter than the rest, and of one of which a twentieth is.
+TEST_F(Messages, MuchClippingIsToldOnceARunWithARemedy) {
+  const auto half_hot = [](int hot_columns) {
+    std::string pixels;
+    for (int i = 0; i < 40 * 40; ++i) {
+      const int counts = (i % 40 < hot_columns ? 4000 : 3000) + i % 7;
+      pixels += {static_cast<char>(counts & 255), static_cast<char>(counts >> 8)};
+    }
+    return pixels;
+  };
+  write_text(path("two.raw"), half_hot(10) + half_hot(10));
+  write_text(path("little.raw"), half_hot(2));
+  const std::string kept =
+      "thermedge: warning: two.raw[0]: a gain of 0.5 grey levels a count clips 25.0 % of the "
+      "pixels "
+      "(0.0 % below, 25.0 % above), and no edges can be seen there: ";
+  struct Case {
+    std::string arguments;
+    std::string remedy;
+  };
+  for (const Case& given :
+       {Case{"detect two.raw --preset paper",
+             "--set grey_scale.gain=0.1 clips 0.0 %, and --preset robust or "
+             "fast scale nothing"},
+        {"scale two.raw -o out", "--gain 0.1 clips 0.0 %"},
+        {"scale two.raw -o out --stable --gain 0.5", "--gain 0.1 clips 0.0 %"}}) {
+    const auto result = run(given.arguments + " --raw-size 40x40");
+    EXPECT_EQ(result.exit_code, 0);
+    EXPECT_EQ(result.err, kept + given.remedy + " (later frames are not checked)\n");
+    EXPECT_EQ(run(given.arguments + " --raw-size 40x40 --quiet").err, "");
+  }
+  EXPECT_EQ(run("detect two.raw --raw-size 40x40").err, "");
+  EXPECT_EQ(run("detect little.raw --preset paper --raw-size 40x40").err, "");
+  EXPECT_EQ(run("scale little.raw -o little.png --raw-size 40x40").err, "");
+  const auto json = run("scale two.raw -o out --raw-size 40x40 --json-log").err;
+  EXPECT_TRUE(json.starts_with("{\"level\":\"warning\",\"message\":\"two.raw[0]: a gain")) << json;
+}
+
 // The commands that read frames share these.
 TEST_F(Messages, BadFramesAreBadInput) {
   std::vector<BadCase> cases;

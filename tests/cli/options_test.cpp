@@ -18,7 +18,8 @@ constexpr const char* kScene = "'sim:desk?width=96&height=72'";
 class Options : public ProgramTest {
  protected:
   [[nodiscard]] nlohmann::json edges(const std::string& arguments) const {
-    const std::string line = output_of("detect " + std::string(kScene) + " -o - " + arguments);
+    const std::string line =
+        output_of("detect " + std::string(kScene) + " -o - --quiet " + arguments);
     return nlohmann::json::parse(line, nullptr, false)["edges"];
   }
   static std::size_t edgels_of(const nlohmann::json& edges) {

@@ -97,7 +97,7 @@ TEST_F(Pages, ProbeSeesAShutter) {
 }
 
 TEST_F(Pages, ProbeOf8BitsSpeaksOfLevelsAlone) {
-  ASSERT_EQ(output_of("scale 'sim:desk?width=96&height=72' -o view.png"), "");
+  ASSERT_EQ(output_of("scale 'sim:desk?width=96&height=72' -o view.png --quiet"), "");
   const std::string page = output_of("probe view.png");
   expect_row(page, "bits", "8 of 8 used");
   EXPECT_NE(page.find("scaled already"), std::string::npos);

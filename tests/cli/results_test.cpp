@@ -195,7 +195,7 @@ TEST_F(Results, WithoutAnOutputALineTellsTheNumbers) {
 }
 
 TEST_F(Results, PicturesOf8BitsAreDetectedAsSuch) {
-  ASSERT_EQ(output_of("scale frame.png -o view.png"), "");
+  ASSERT_EQ(output_of("scale frame.png -o view.png --quiet"), "");
   const io::SourceFrame view = read("view.png");
   ASSERT_EQ(view.bits, 8);
   for (const Preset preset : {Preset::kRobust, Preset::kPaper}) {
@@ -237,7 +237,8 @@ TEST_F(Results, ScaledPicturesAreThoseOfAlgorithm1) {
     ASSERT_TRUE(scale_to_8bit(counts_, options, levels));
     for (const std::string ending : {"png", "tif", "pgm", "npy"}) {
       const std::string name = "view." + ending;
-      ASSERT_EQ(output_of("scale frame.png -o " + name + " --gain " + std::to_string(gain)), "");
+      ASSERT_EQ(output_of("scale frame.png -o " + name + " --quiet --gain " + std::to_string(gain)),
+                "");
       expect_picture(name, levels);
     }
   }

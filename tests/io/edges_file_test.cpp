@@ -103,6 +103,17 @@ TEST(EdgesJson, CountsTheDroppedEdgesByTheReason) {
                 {{"weak", 1}, {"insignificant", 2}, {"low_contrast", 3}, {"beyond_budget", 1}}));
 }
 
+TEST(EdgesJson, SaysWhatAlgorithm1ClippedWherePresetPaperRan) {
+  Detection detection = two_edges();
+  EXPECT_FALSE(
+      nlohmann::json::parse(edges_to_json(detection, ""))["stats"].contains("clipped_low_share"));
+  detection.preset = Preset::kPaper;
+  detection.clipped = {0.125, 0.25};
+  const auto json = nlohmann::json::parse(edges_to_json(detection, ""));
+  EXPECT_EQ(json["stats"]["clipped_low_share"], 0.125);
+  EXPECT_EQ(json["stats"]["clipped_high_share"], 0.25);
+}
+
 TEST(EdgesJson, IsOneLineWhateverTheName) {
   const std::string text = edges_to_json(two_edges(), "a.png");
   EXPECT_EQ(text.find('\n'), text.size() - 1);

@@ -357,6 +357,34 @@ TEST(Detector, TheSmallestContrastIsInTheUnitOfTheFrame) {
   }
 }
 
+// A tenth of the frame is far colder than the rest, a fifth far hotter; 8-bit frames and preset
+// robust know no Algorithm 1.
+TEST(Detector, PresetPaperTellsWhatAlgorithm1Clips) {
+  Image<std::uint16_t> frame(100, 50);
+  for (int y = 0; y < 50; ++y) {
+    for (int x = 0; x < 100; ++x) {
+      frame(x, y) = static_cast<std::uint16_t>(x < 10 ? 2000 : x < 80 ? 3000 + x % 3 : 4000);
+    }
+  }
+  DetectorOptions options(Preset::kPaper);
+  Detector paper = detector(options);
+  const ClippedShares clipped = paper.detect(frame)->clipped;
+  EXPECT_DOUBLE_EQ(clipped.low, 0.1);
+  EXPECT_DOUBLE_EQ(clipped.high, 0.2);
+  Image<std::uint8_t> valid(100, 50);
+  fill_pixels(valid.view(), std::uint8_t{1});
+  for (int y = 0; y < 50; ++y) {
+    std::fill_n(valid.row(y) + 90, 10, std::uint8_t{0});
+  }
+  Frame masked(frame);
+  masked.valid = valid;
+  EXPECT_NEAR(paper.detect(masked)->clipped.high, 10.0 / 90, 1e-12);
+  EXPECT_EQ(paper.detect(Frame(frame.view(), 8))->clipped.both(), 0);
+  options.paper()->grey_scale.gain = 0.1;
+  EXPECT_EQ(detector(options).detect(frame)->clipped.both(), 0);
+  EXPECT_EQ(detector({}).detect(frame)->clipped.both(), 0);
+}
+
 TEST(Detector, InvalidPixelsMakeNoEdges) {
   const auto frame = small_desk(20);
   Image<float> holed(frame.counts.width(), frame.counts.height());

@@ -53,6 +53,48 @@ TEST(Median, AgreesWithSorting) {
   }
 }
 
+// Against the formula before it is clamped, at gains whose limits fall on counts and between them.
+TEST(ClippedShares, AreThePixelsWhoseLevelsLieOutside) {
+  const auto frame = noise_image<std::uint16_t>(61, 47, 3000, 300, 7);
+  const int median = median_counts(frame);
+  for (const double gain : {0.5, 0.2, 1.0 / 3.0, 0.25, 1.0, 2.5, 0.01}) {
+    double low = 0;
+    double high = 0;
+    for (int y = 0; y < frame.height(); ++y) {
+      for (int x = 0; x < frame.width(); ++x) {
+        const double level = std::round((frame(x, y) - median) * gain + 127.0);
+        low += level < 0 ? 1 : 0;
+        high += level > 255 ? 1 : 0;
+      }
+    }
+    const ClippedShares clipped = clipped_shares(frame, {.gain = gain});
+    EXPECT_EQ(clipped.low, low / (61 * 47)) << gain;
+    EXPECT_EQ(clipped.high, high / (61 * 47)) << gain;
+  }
+  EXPECT_EQ(clipped_shares({}, {}).both(), 0);
+}
+
+// At the default gain 254 counts below the median are level 0, 255 of them too (halves are rounded
+// away from zero), and 256 above are level 255.
+TEST(ClippedShares, CountTheLevelsAtTheEndsAsSeen) {
+  EXPECT_EQ(clipped_shares(frame_of(4, 1, {1000 - 254, 1000, 1000, 1256}), {}).both(), 0);
+  const ClippedShares clipped = clipped_shares(frame_of(4, 1, {1000 - 255, 1000, 1000, 1257}), {});
+  EXPECT_EQ(clipped.low, 0.25);
+  EXPECT_EQ(clipped.high, 0.25);
+}
+
+TEST(ClippedShares, AreThoseOfValidPixels) {
+  const auto frame = frame_of(4, 1, {0, 1000, 1000, 9000});
+  Image<std::uint8_t> valid(4, 1);
+  fill_pixels(valid.view(), std::uint8_t{1});
+  valid(0, 0) = 0;
+  const ClippedShares clipped = clipped_shares(frame, {}, valid);
+  EXPECT_EQ(clipped.low, 0);
+  EXPECT_EQ(clipped.high, 1.0 / 3);
+  fill_pixels(valid.view(), std::uint8_t{0});
+  EXPECT_EQ(clipped_shares(frame, {}, valid).both(), 0) << "no pixel";
+}
+
 TEST(Scale, EqualsTheFormulaForEveryCount) {
   for_each_simd_target([](const std::string&) {
     for (const int median : {0, 1, 127, 3000, 32768, 65534, 65535}) {

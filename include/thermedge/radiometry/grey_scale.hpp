@@ -35,6 +35,26 @@ void visit_options(O& o, V&& v) {
 [[nodiscard]] Status scale_to_8bit(ImageView<const std::uint16_t> frame,
                                    const GreyScaleOptions& options, ImageView<std::uint8_t> levels);
 
+// Pixels whose counts Algorithm 1 cannot tell apart, because their levels would lie below 0 or
+// above 255; parts of 1.
+struct ClippedShares {
+  double low = 0;
+  double high = 0;
+
+  [[nodiscard]] double both() const { return low + high; }
+};
+
+// Clipped shares from here on are much: up to it, about as large a share of the edge pixels lies
+// where all is clipped. On recordings of an Optris PI450 and of a road, at gains from .01 to 2:
+// with 1-2 % clipped .5 % of the edge pixels, with 3-5 % 4 %, with 5-8 % 7 %, with 30-50 % 19 %.
+inline constexpr double kMuchClippedShare = 0.05;
+
+// What scale_to_8bit clips, as shares of the pixels that are a measurement (nonzero in `valid`,
+// which has the frame's size; empty: all); 0 where there are none. O(pixels). Thread-safe.
+[[nodiscard]] ClippedShares clipped_shares(ImageView<const std::uint16_t> frame,
+                                           const GreyScaleOptions& options,
+                                           ImageView<const std::uint8_t> valid = {});
+
 struct CountRange {
   int min = 0;  // counts
   int max = 0;  // counts

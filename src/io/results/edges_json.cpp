@@ -132,22 +132,26 @@ std::string edges_to_json(const Detection& detection, const std::string& source)
   for (const Junction& junction : set.junctions) {
     junctions.push_back({junction.at.x, junction.at.y});
   }
-  const Json document = {{"source", source},
-                         {"width", detection.width},
-                         {"height", detection.height},
-                         {"preset", preset_name(detection.preset)},
-                         {"sigma_counts", rounded(detection.sigma_counts)},
-                         {"edges", std::move(edges)},
-                         {"junctions", std::move(junctions)},
-                         {"stats",
-                          {{"ms", to_json(detection.times)},
-                           {"measured", measured(detection)},
-                           {"edges_found", set.edges.size()},
-                           {"edges_dropped", to_json(count_statuses(set))},
-                           {"invalid_pixels", to_json(detection.corrections.invalid)},
-                           {"bad_pixels", detection.corrections.bad_pixels.size()},
-                           {"threshold_low", rounded(detection.threshold_low)},
-                           {"threshold_high", rounded(detection.threshold_high)}}}};
+  Json document = {{"source", source},
+                   {"width", detection.width},
+                   {"height", detection.height},
+                   {"preset", preset_name(detection.preset)},
+                   {"sigma_counts", rounded(detection.sigma_counts)},
+                   {"edges", std::move(edges)},
+                   {"junctions", std::move(junctions)},
+                   {"stats",
+                    {{"ms", to_json(detection.times)},
+                     {"measured", measured(detection)},
+                     {"edges_found", set.edges.size()},
+                     {"edges_dropped", to_json(count_statuses(set))},
+                     {"invalid_pixels", to_json(detection.corrections.invalid)},
+                     {"bad_pixels", detection.corrections.bad_pixels.size()},
+                     {"threshold_low", rounded(detection.threshold_low)},
+                     {"threshold_high", rounded(detection.threshold_high)}}}};
+  if (detection.preset == Preset::kPaper) {
+    document["stats"]["clipped_low_share"] = rounded(detection.clipped.low);
+    document["stats"]["clipped_high_share"] = rounded(detection.clipped.high);
+  }
   // A name that is not UTF-8 is shown with replacement characters rather than refused.
   return document.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
