@@ -43,6 +43,13 @@ constexpr Grade kStripeGrades[] = {{0.125, "none to be seen"},
                                    {0.4, "clear: they cost faint edges"},
                                    {kAnything, "strong: correct them first"}};
 
+// Of a variance, in units of the square of sigma: a factor of two a step.
+constexpr Grade kShades[] = {{0.18, " "}, {0.35, "."}, {0.7, ":"},
+                             {1.4, "o"},  {2.8, "O"},  {kAnything, "@"}};
+// Most cells of the map in text.
+constexpr int kMapColumns = 6;
+constexpr int kMapRows = 4;
+
 class Page {
  public:
   explicit Page(const RecordingReport& report) : report_(report) {}
@@ -53,6 +60,7 @@ class Page {
     range();
     noise();
     stripes();
+    spectrum();
     invalid_pixels();
     bad_pixels();
     clipping();
@@ -93,6 +101,8 @@ class Page {
   void range();
   void noise();
   void fixed_pattern();
+  void spectrum();
+  [[nodiscard]] std::string map_row(int row) const;
   void stripes();
   void invalid_pixels();
   void bad_pixels();
@@ -124,10 +134,10 @@ void Page::range() {
 }
 
 void Page::noise() {
-  heading("Noise (standard deviation of a pixel)");
+  heading("Noise (standard deviation)");
   const double sigma = report_.sigma_counts;
   if (sigma == 0) {
-    row("sigma", "none", "constant, drawn or processed pictures, or too small to tell");
+    row("sigma", "none", "constant, drawn or processed, or too small to tell");
     return;
   }
   row("sigma", amount(sigma, 2),
@@ -138,10 +148,12 @@ void Page::noise() {
   const double low = tiles[tiles.size() / 10];
   const double high = tiles[tiles.size() - 1 - tiles.size() / 10];
   row("in the picture", fmt::format("{:.1f} to {:.1f}", low, high),
-      high < 1.5 * low ? "even" : "uneven: vignetting, texture or a bad flat-field");
+      high < 1.5 * low ? "even" : "uneven, see the map: detect goes by it");
+  row("pixel to pixel", fmt::format("{:.2f}", report_.pixel_sigma_counts),
+      "between neighbours; sigma is over 5 to 16 px");
   if (report_.temporal_sigma_counts) {
     row("over time", fmt::format("{:.2f}", *report_.temporal_sigma_counts),
-        "new in every frame: denoising and averaging help");
+        "new in every frame, pixel to pixel: averaging helps");
   }
   fixed_pattern();
   if (report_.snr) {
@@ -173,6 +185,53 @@ void Page::stripes() {
                   grade(kStripeGrades, report_.column_sigma_counts / sigma)));
   row("rows", fmt::format("{:.2f}", report_.row_sigma_counts),
       fmt::format("level stripes: {}", grade(kStripeGrades, report_.row_sigma_counts / sigma)));
+}
+
+// Mean of sigma over the tiles of a cell.
+std::string Page::map_row(int row) const {
+  const NoiseMap& map = report_.noise_map;
+  const int rows = std::min(map.rows, kMapRows);
+  const int columns = std::min(map.columns, kMapColumns);
+  std::string text;
+  for (int column = 0; column < columns && row < rows; ++column) {
+    double sum = 0;
+    int tiles = 0;
+    for (int y = row * map.rows / rows; y < (row + 1) * map.rows / rows; ++y) {
+      for (int x = column * map.columns / columns; x < (column + 1) * map.columns / columns; ++x) {
+        sum += map.sigma_counts[static_cast<std::size_t>(y * map.columns + x)];
+        ++tiles;
+      }
+    }
+    text += fmt::format("{:>6.1f}", sum / tiles);
+  }
+  return text;
+}
+
+void Page::spectrum() {
+  if (report_.sigma_counts == 0) {
+    return;
+  }
+  std::string kind(std::find_if(kNoiseKinds.begin(), kNoiseKinds.end(), [&](const auto& known) {
+                     return known.value == report_.noise_kind;
+                   })->name);
+  std::replace(kind.begin(), kind.end(), '_', ' ');
+  row("spectrum", kind, noise_kind_meaning(report_.noise_kind));
+  text_ += fmt::format("\n  {:<44} spectrum, slow to fine: rightwards across,\n",
+                       fmt::format("map: sigma over the picture, {}", unit()));
+  text_ += fmt::format("  {:<44} downwards along the columns\n", "");
+  const NoiseSpectrum variances = report_.spectrum_with_stripes();
+  for (int v = 0; v < kNoiseBlockPx; ++v) {
+    text_ += fmt::format("  {:<44} ", map_row(v));
+    for (int u = 0; u < kNoiseBlockPx; ++u) {
+      const auto variance =
+          static_cast<double>(variances[static_cast<std::size_t>(v * kNoiseBlockPx + u)]);
+      text_ += fmt::format(" {}", u + v > 0 ? grade(kShades, variance) : " ");
+    }
+    text_ += "\n";
+  }
+  text_ +=
+      "  @ O o : . and blank: each half the variance of the one before; o all over is white, "
+      "blank at\n  the lower right smooth, @ along the upper or left side stripes\n";
 }
 
 // Said only where there are some.

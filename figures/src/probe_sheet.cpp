@@ -16,6 +16,9 @@ constexpr int kColumns = 3;
 constexpr double kLevels = 255;
 constexpr Rgb kData = {40, 90, 150};
 constexpr Rgb kSecondData = {213, 94, 0};
+constexpr double kEvenWithin = 0.2;  // of the middle sigma
+constexpr Rgb kNotMeasured = {225, 227, 230};
+constexpr double kClearStripes = 0.25;  // share of sigma, from which stripes cost faint edges
 
 class ProbePanels {
  public:
@@ -27,7 +30,10 @@ class ProbePanels {
 
   [[nodiscard]] std::vector<Panel> all() const {
     std::vector<Panel> panels = {
-        frame(), histogram(), noise_map(),
+        frame(),
+        histogram(),
+        noise_map(),
+        spectrum(),
         stripes("Offsets of the columns", "column, px", report_.column_profile_counts,
                 report_.column_sigma_counts),
         stripes("Offsets of the rows", "row, px", report_.row_profile_counts,
@@ -111,13 +117,16 @@ class ProbePanels {
     const NoiseMap& map = report_.noise_map;
     std::vector<double> sorted = map.sigma_counts;
     std::sort(sorted.begin(), sorted.end());
-    // Without the outermost tiles, which one busy corner would make the whole range.
-    const double low = sorted.empty() ? 0 : sorted[sorted.size() / 20];
-    const double high =
-        std::max(sorted.empty() ? 0 : sorted[sorted.size() - 1 - sorted.size() / 20], low + 1e-3);
+    // Without the outermost tiles, which one busy corner would make the whole range; wide enough
+    // that even noise is of one colour.
+    const double lowest = sorted.empty() ? 0 : sorted[sorted.size() / 20];
+    const double highest = sorted.empty() ? 0 : sorted[sorted.size() - 1 - sorted.size() / 20];
+    const double middle = (lowest + highest) / 2;
+    const double low = std::min(lowest, (1 - kEvenWithin) * middle);
+    const double high = std::max({highest, (1 + kEvenWithin) * middle, low + 1e-3});
     Panel made = panel(
         "Noise over the picture",
-        fmt::format("sigma {:.2f} {}; a map of one colour is a camera of even noise.",
+        fmt::format("sigma {:.2f} {}, as detect tells it; one colour all over is even noise.",
                     report_.sigma_counts, unit_),
         [&map, low, high](Canvas& canvas, const Box& box) {
           if (map.sigma_counts.empty()) {
@@ -138,6 +147,61 @@ class ProbePanels {
     made.colour_bars = {
         {io::plasma, fmt::format("{:.2f}", low), fmt::format("{:.2f} {}", high, unit_)}};
     return made;
+  }
+
+  // The 8 x 8 variances as squares, the period of each frequency beside its row and column.
+  [[nodiscard]] Panel spectrum() const {
+    const double stripes = std::max(report_.column_sigma_counts, report_.row_sigma_counts);
+    std::string note(noise_kind_meaning(report_.noise_kind));
+    if (stripes > kClearStripes * report_.sigma_counts) {
+      note += "; stripes: bright along the upper or the left side";
+    }
+    Panel made = panel("Spectrum of the noise: " + kind_text(), note + ".",
+                       [this](Canvas& canvas, const Box& box) { draw_spectrum(canvas, box); });
+    made.colour_bars = {{io::plasma, "1/16", "4 times the square of sigma"}};
+    return made;
+  }
+
+  [[nodiscard]] std::string kind_text() const {
+    std::string text(std::find_if(kNoiseKinds.begin(), kNoiseKinds.end(), [&](const auto& known) {
+                       return known.value == report_.noise_kind;
+                     })->name);
+    std::replace(text.begin(), text.end(), '_', ' ');
+    return text;
+  }
+
+  void draw_spectrum(Canvas& canvas, const Box& box) const {
+    if (report_.sigma_counts == 0) {
+      return;
+    }
+    const double unit = box.width / 100;
+    const double side = std::min(box.width - 38 * unit, box.height - 14 * unit);
+    const Box square{box.x + (box.width - side) / 2, box.y + unit, side, side};
+    Image<Rgb> cells(kNoiseBlockPx, kNoiseBlockPx);
+    const NoiseSpectrum variances = report_.spectrum_with_stripes();
+    for (int v = 0; v < kNoiseBlockPx; ++v) {
+      for (int u = 0; u < kNoiseBlockPx; ++u) {
+        const auto variance =
+            static_cast<double>(variances[static_cast<std::size_t>(v * kNoiseBlockPx + u)]);
+        cells(u, v) = u + v == 0 ? kNotMeasured : io::plasma((std::log2(variance) + 4) / 6);
+      }
+    }
+    canvas.picture(cells.view(), square);
+    TextStyle style{.size = 2.7 * unit, .colour = kSoftInk, .align = Align::kCentre};
+    const double cell = side / kNoiseBlockPx;
+    for (int i = 0; i < kNoiseBlockPx; ++i) {
+      const std::string period = i == 0 ? "none" : fmt::format("{:.2g}", 2.0 * kNoiseBlockPx / i);
+      style.align = Align::kCentre;
+      canvas.text({square.x + (i + 0.5) * cell, square.bottom() + 3.6 * unit}, period, style);
+      style.align = Align::kRight;
+      canvas.text({square.x - unit, square.y + (i + 0.5) * cell + unit}, period, style);
+    }
+    style.colour = kInk;
+    style.align = Align::kCentre;
+    canvas.text({square.x + side / 2, square.bottom() + 8 * unit}, "period across, px", style);
+    style.align = Align::kRight;
+    canvas.text({square.x - 8 * unit, square.y + side / 2 - unit}, "period", style);
+    canvas.text({square.x - 8 * unit, square.y + side / 2 + 2.5 * unit}, "down, px", style);
   }
 
   // Profiles of one scale in both panels, so that they can be compared.

@@ -85,12 +85,16 @@ void RobustPipeline::take_told_noise(Corrections& corrections) const {
   }
 }
 
+double noisiness_of(double level_counts, double pixel_sigma_counts,
+                    const NoiseScaleTuning& tuning) {
+  const double multiple = std::max(level_counts / tuning.no_noise_counts,
+                                   pixel_sigma_counts / tuning.no_pixel_noise_counts);
+  return std::clamp(multiple - 1, 0.0, 1.0);
+}
+
 void RobustPipeline::find_noise_scale(Detection& found) {
   const double level = found.corrections.noise_model.level_counts;
-  const double pixels = found.corrections.noise.sigma_counts;
-  noise_.noisiness = std::clamp(
-      std::max(level / tuning_.no_noise_counts, pixels / tuning_.no_pixel_noise_counts) - 1, 0.0,
-      1.0);
+  noise_.noisiness = noisiness_of(level, found.corrections.noise.sigma_counts, tuning_);
   const double clean = 1 - noise_.noisiness;
   const double least = clean > 0 ? tuning_.least_contrast_share * usual_contrast() : 0;
   noise_.unit_counts =

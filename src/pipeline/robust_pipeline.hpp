@@ -38,10 +38,15 @@ struct NoiseScaleTuning {
   double terrace_counts = 10;
 };
 
+// 0: noise is as good as none, 1: it is all that limits what can be told. Of its level at the scale
+// of edges and its deviation from pixel to pixel.
+[[nodiscard]] double noisiness_of(double level_counts, double pixel_sigma_counts,
+                                  const NoiseScaleTuning& tuning = {});
+
 // The noise of one frame as the stages after it see it.
 struct NoiseScale {
   double unit_counts = 1;  // what responses are in units of, where the noise's map is 1
-  double noisiness = 0;    // 0: as good as none, 1: noise is all that limits what can be told
+  double noisiness = 0;    // as noisiness_of has it
 };
 
 class RobustPipeline final : public Pipeline {

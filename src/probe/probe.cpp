@@ -7,6 +7,7 @@
 #include <new>
 
 #include "probe_counts.hpp"
+#include "probe_model.hpp"
 #include "probe_motion.hpp"
 #include "probe_noise.hpp"
 #include "probe_stripes.hpp"
@@ -79,7 +80,10 @@ std::string size_text(int width, int height) {
 
 struct RecordingProbe::Impl {
   Impl(const ProbeOptions& chosen, const ProbeTuning& chosen_tuning)
-      : options(chosen), tuning(chosen_tuning), series(chosen_tuning.most_samples) {}
+      : options(chosen),
+        tuning(chosen_tuning),
+        model(chosen.preset),
+        series(chosen_tuning.most_samples) {}
 
   ProbeOptions options;
   ProbeTuning tuning;
@@ -90,6 +94,7 @@ struct RecordingProbe::Impl {
 
   detail::SortedCounts sorted;
   detail::CountTotals totals;
+  detail::RecordingNoise model;
   detail::TiledNoise noise;
   detail::MotionGate gate;
   detail::StripeProfiles stripes;
@@ -114,7 +119,8 @@ struct RecordingProbe::Impl {
   void add(ImageView<const std::uint16_t> frame, ImageView<const std::uint8_t> given);
   void fill_invalid(ImageView<const std::uint16_t> frame, ImageView<const std::uint8_t> given);
   void add_counts(ImageView<const std::uint16_t> frame);
-  void add_new_frame(ImageView<const std::uint16_t> frame, double sigma_counts);
+  void add_new_frame(ImageView<const std::uint16_t> frame, double sigma_counts,
+                     double pixel_sigma_counts);
   void add_bad_pixels(ImageView<const std::uint16_t> frame, double sigma_counts);
   void end_freeze(ImageView<const std::uint16_t> frame, double sigma_counts);
   [[nodiscard]] RecordingReport finish() const;
@@ -209,13 +215,14 @@ void RecordingProbe::Impl::add(ImageView<const std::uint16_t> frame_as_given,
   frame_sigma.add(estimate.sigma_counts);
   column_sigma.add(estimate.column_sigma_counts);
   row_sigma.add(estimate.row_sigma_counts);
-  const double sigma = noise.add(frame);
+  const double sigma = model.add(frame, valid, estimate.sigma_counts);
+  const double pixel_sigma = noise.add(frame);
   series.add({report.frames, last_median, sigma});
   if (is_repeat) {
     ++report.repeated_frames;
     report.longest_freeze = std::max(report.longest_freeze, ++freeze);
   } else {
-    add_new_frame(frame, sigma);
+    add_new_frame(frame, sigma, pixel_sigma);
   }
   ++report.frames;
 }
@@ -245,14 +252,14 @@ void RecordingProbe::Impl::add_counts(ImageView<const std::uint16_t> frame) {
   }
 }
 
-void RecordingProbe::Impl::add_new_frame(ImageView<const std::uint16_t> frame,
-                                         double sigma_counts) {
+void RecordingProbe::Impl::add_new_frame(ImageView<const std::uint16_t> frame, double sigma_counts,
+                                         double pixel_sigma_counts) {
   ++new_frames;
   if (new_frames > 1) {
-    end_freeze(frame, sigma_counts);
+    end_freeze(frame, pixel_sigma_counts);
     noise.add_change();
   }
-  if (gate.moved(frame, sigma_counts)) {
+  if (gate.moved(frame, pixel_sigma_counts)) {
     noise.add_to_pattern();
     report.scene_moved += new_frames > 1 ? 1 : 0;
   }
@@ -318,10 +325,10 @@ RecordingReport RecordingProbe::Impl::finish() const {
 }
 
 void RecordingProbe::Impl::finish_noise(RecordingReport& result) const {
-  result.sigma_counts = noise.sigma_counts();
+  model.report(result);
+  result.pixel_sigma_counts = noise.sigma_counts();
   result.frame_sigma_counts = frame_sigma.value();
   result.temporal_sigma_counts = noise.temporal_sigma_counts();
-  result.noise_map = noise.map();
   if (result.sigma_counts > 0) {
     result.snr = result.robust_range_counts / result.sigma_counts;
   }

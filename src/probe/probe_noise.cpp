@@ -52,11 +52,8 @@ double TiledNoise::add(ImageView<const std::uint16_t> frame) {
   previous_slope_.swap(slope_);
   filter(frame);
   double sum = 0;
-  for (std::size_t i = 0; i < tiles_.size(); ++i) {
-    const double variance =
-        tile_variance(tiles_[i], kResidualGain, [&](int x, int y) { return residual_(x, y); });
-    tile_sigma_sums_[i] += std::sqrt(variance);
-    sum += variance;
+  for (const Tile& tile : tiles_) {
+    sum += tile_variance(tile, kResidualGain, [&](int x, int y) { return residual_(x, y); });
   }
   last_sigma_ = std::sqrt(sum / static_cast<double>(tiles_.size()));
   spatial_.add(last_sigma_);
@@ -67,17 +64,16 @@ void TiledNoise::lay_tiles(int width, int height) {
   if (!tiles_.empty()) {
     return;
   }
-  tile_columns_ = std::max(width / tuning_.tile_side_px, 1);
+  const int tile_columns = std::max(width / tuning_.tile_side_px, 1);
   const int tile_rows = std::max(height / tuning_.tile_side_px, 1);
   for (int j = 0; j < tile_rows; ++j) {
-    for (int i = 0; i < tile_columns_; ++i) {
-      const int x = i * width / tile_columns_;
+    for (int i = 0; i < tile_columns; ++i) {
+      const int x = i * width / tile_columns;
       const int y = j * height / tile_rows;
       tiles_.push_back(
-          {x, y, (i + 1) * width / tile_columns_ - x, (j + 1) * height / tile_rows - y});
+          {x, y, (i + 1) * width / tile_columns - x, (j + 1) * height / tile_rows - y});
     }
   }
-  tile_sigma_sums_.resize(tiles_.size());
   for (Image<std::int32_t>& sums : pattern_sums_) {
     sums.resize(width, height);
     fill_pixels(sums.view(), 0);
@@ -169,16 +165,6 @@ void TiledNoise::add_to_pattern() {
 
 std::optional<double> TiledNoise::temporal_sigma_counts() const {
   return temporal_.count() > 0 ? std::optional(temporal_.value()) : std::nullopt;
-}
-
-NoiseMap TiledNoise::map() const {
-  NoiseMap map;
-  map.columns = tile_columns_;
-  map.rows = tiles_.empty() ? 0 : static_cast<int>(tiles_.size()) / tile_columns_;
-  for (const double sum : tile_sigma_sums_) {
-    map.sigma_counts.push_back(sum / static_cast<double>(spatial_.count()));
-  }
-  return map;
 }
 
 std::optional<TiledNoise::Pattern> TiledNoise::pattern() const {

@@ -40,7 +40,6 @@ class TiledNoise {
 
   [[nodiscard]] double sigma_counts() const { return spatial_.value(); }
   [[nodiscard]] std::optional<double> temporal_sigma_counts() const;
-  [[nodiscard]] NoiseMap map() const;
 
   struct Pattern {
     double sigma_counts;  // root mean square over the tiles
@@ -60,11 +59,9 @@ class TiledNoise {
 
   TiledNoiseTuning tuning_;
   std::vector<Tile> tiles_;
-  int tile_columns_ = 0;
   Image<std::int32_t> residual_, previous_residual_;  // 6 times the noise, signed
   Image<std::int32_t> slope_, previous_slope_;        // |gx| + |gy| by Sobel
   std::vector<std::int32_t> slopes_, magnitudes_;
-  std::vector<double> tile_sigma_sums_;
   double last_sigma_ = 0;
   Mean spatial_, temporal_;
   std::array<Image<std::int32_t>, 2> pattern_sums_;

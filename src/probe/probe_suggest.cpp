@@ -58,7 +58,7 @@ void suggest_gain(const RecordingReport& report, const SuggestionTuning& tuning,
 
 void suggest_sigma(const RecordingReport& report, const SuggestionTuning& tuning,
                    std::vector<SuggestedOption>& options) {
-  const double sigma = report.sigma_counts;
+  const double sigma = report.pixel_sigma_counts;
   if (std::abs(sigma - report.frame_sigma_counts) > tuning.sigma_tolerance * sigma) {
     options.push_back({"denoise.sigma_counts", number(sigma, 1),
                        "noise differs over the picture; its quieter half has " +
@@ -89,7 +89,9 @@ std::vector<SuggestedOption> suggest_options(const RecordingReport& report, Pres
   if (paper != nullptr && report.container_bits == 16) {
     suggest_gain(report, tuning, options);
   }
-  suggest_sigma(report, tuning, options);
+  if (paper != nullptr) {  // the others have a map of the noise
+    suggest_sigma(report, tuning, options);
+  }
   const double scale =
       static_cast<double>(report.width + report.height) / (kPaperWidth + kPaperHeight);
   if (paper != nullptr && scale < tuning.small_frame_scale) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "support/edge_maps.hpp"
+#include "support/images.hpp"
 #include "support/program.hpp"
 #include "thermedge/io/write.hpp"
 #include "thermedge/simd.hpp"
@@ -51,6 +52,8 @@ TEST_F(Pages, ProbeTellsTheNumbersOfItsJson) {
   expect_row(page, "sigma",
              fmt::format("{:.2f} counts = {:.3f} degC", number(noise["sigma_counts"]),
                          number(noise["sigma_degc"])));
+  expect_row(page, "pixel to pixel", fmt::format("{:.2f}", number(noise["pixel_sigma_counts"])));
+  expect_row(page, "spectrum", noise["kind"].get<std::string>());
   expect_row(page, "of all frames",
              fmt::format("{} to {} counts", range["min_counts"].get<int>(),
                          range["max_counts"].get<int>()));
@@ -65,6 +68,37 @@ TEST_F(Pages, ProbeTellsTheNumbersOfItsJson) {
                  fmt::format("{:.1f} % clipped", 100 * number(entry["clipped_share"])));
     }
   }
+}
+
+// Noise that is four times as strong in the right half, and smooth: the map has both levels, the
+// spectrum is blank at its lower right.
+TEST_F(Pages, ProbeDrawsMapAndSpectrumAsText) {
+  const auto noise = noise_image<std::uint16_t>(241, 201, 3000, 20, 5);
+  Image<std::uint16_t> frame(240, 200);
+  for (int y = 0; y < 200; ++y) {
+    for (int x = 0; x < 240; ++x) {
+      const int sum = noise(x, y) + noise(x + 1, y) + noise(x, y + 1) + noise(x + 1, y + 1);
+      frame(x, y) = static_cast<std::uint16_t>(3000 + (x < 120 ? 1 : 4) * (sum - 12000) / 4);
+    }
+  }
+  ASSERT_TRUE(io::write_picture(path("smooth.png"), ImageView<const std::uint16_t>(frame.view())));
+  const std::string page = output_of("probe smooth.png");
+  expect_row(page, "spectrum", "smooth");
+  std::istringstream rest(page.substr(page.find("downwards along the columns\n") + 28));
+  std::vector<std::string> rows(8);
+  for (std::string& row : rows) {
+    std::getline(rest, row);
+  }
+  for (int i = 0; i < 4; ++i) {
+    std::istringstream cells(rows[static_cast<std::size_t>(i)]);
+    double left = 0;
+    double right = 0;
+    cells >> left >> right >> right >> right >> right >> right;
+    EXPECT_NEAR(left, 16, 3) << rows[static_cast<std::size_t>(i)];
+    EXPECT_NEAR(right, 57, 12) << rows[static_cast<std::size_t>(i)];
+  }
+  EXPECT_NE(rows[1].find("o o o"), std::string::npos) << rows[1];
+  EXPECT_EQ(rows[7].find_first_not_of(" .", 5), std::string::npos) << rows[7];
 }
 
 struct NoiseWord {

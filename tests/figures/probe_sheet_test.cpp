@@ -77,11 +77,11 @@ TEST(ProbeSheet, TellsTheNumbersOfTheReport) {
 TEST(ProbeSheet, HasASeriesOnlyOfSequences) {
   (void)sheet_of(recorded(1, 3000, 8));
   EXPECT_TRUE(is_written("corridor.tif: 1 frame,"));
-  EXPECT_TRUE(is_written("(e)"));
-  EXPECT_FALSE(is_written("(f)"));
+  EXPECT_TRUE(is_written("(f)"));
+  EXPECT_FALSE(is_written("(g)"));
   EXPECT_FALSE(is_written("Median over time"));
   (void)sheet_of(recorded(2, 3000, 8));
-  EXPECT_TRUE(is_written("(f)"));
+  EXPECT_TRUE(is_written("(g)"));
   EXPECT_TRUE(is_written("Median over time"));
 }
 
@@ -167,6 +167,47 @@ TEST(ProbeSheet, NoisyTilesAreBright) {
   EXPECT_NEAR(dark.height(), 560, 4);
   EXPECT_TRUE(is_written("5.00"));
   EXPECT_TRUE(is_written("9.00 counts"));
+}
+
+// A hundredth more noise in one tile is no other colour.
+TEST(ProbeSheet, EvenNoiseIsOfOneColour) {
+  Recording recording = recorded(1, 3000, 8);
+  NoiseMap& map = recording.report.noise_map;
+  map.columns = map.rows = 8;
+  map.sigma_counts.assign(64, 8.0);
+  map.sigma_counts[9] = 8.08;
+  map.sigma_counts[10] = 7.92;
+  const auto picture = rasterised(sheet_of(recording));
+  EXPECT_EQ(extent_of_colour_under(picture, "Noise over the picture", io::plasma(1)).pixels, 0);
+  EXPECT_EQ(extent_of_colour_under(picture, "Noise over the picture", io::plasma(0)).pixels, 0);
+  EXPECT_TRUE(is_written("6.40"));
+  EXPECT_TRUE(is_written("9.60 counts"));
+}
+
+// One cell of the spectrum is made dark and lies where its periods are written: 8 px across is the
+// third column, 4 px down the fifth row.
+TEST(ProbeSheet, TheSpectrumHasItsPeriodsOnItsAxes) {
+  Recording recording = recorded(1, 3000, 8);
+  RecordingReport& report = recording.report;
+  report.spectrum = white_spectrum();
+  report.spectrum[8 * 4 + 2] = 1.0F / 16;
+  report.column_sigma_counts = report.row_sigma_counts = 0;
+  report.noise_kind = NoiseKind::kWhite;
+  const auto picture = rasterised(sheet_of(recording));
+  const std::string title = "Spectrum of the noise: white";
+  const Extent white = extent_of_colour_under(picture, title, io::plasma(4.0 / 6));
+  const Extent dark = extent_of_colour_under(picture, title, io::plasma(0));
+  EXPECT_NEAR(white.width(), white.height(), 2);
+  const double cell = white.width() / 8.0;
+  EXPECT_NEAR(dark.width(), cell, 2);
+  EXPECT_NEAR(dark.left - white.left, 2 * cell, 2);
+  EXPECT_NEAR(dark.top - white.top, 4 * cell, 2);
+  EXPECT_TRUE(is_written("period across, px"));
+  EXPECT_TRUE(is_written("neighbours have nothing in common"));
+  EXPECT_FALSE(is_written("stripes: bright"));
+  report.column_sigma_counts = report.sigma_counts / 2;
+  (void)sheet_of(recording);
+  EXPECT_TRUE(is_written("stripes: bright"));
 }
 
 }  // namespace

@@ -70,6 +70,7 @@ TEST(EdgesJson, SaysWhatWasMeasuredAndChosen) {
   Detection detection = two_edges();
   detection.corrections.noise = {5.5, 1.25, 0.75};
   const auto of_canny = nlohmann::json::parse(edges_to_json(detection, ""));
+  EXPECT_EQ(of_canny["stats"]["measured"]["pixel_sigma_counts"], 5.5);
   EXPECT_EQ(of_canny["stats"]["measured"]["column_sigma_counts"], 1.25);
   EXPECT_FALSE(of_canny["stats"]["measured"].contains("unit_counts"));
   NoiseModel& noise = detection.corrections.noise_model;

@@ -30,6 +30,10 @@ TEST(ProbeFile, JsonHasWhatIsPromised) {
   EXPECT_NEAR(json["noise"]["sigma_counts"], report.sigma_counts, 1e-6);
   EXPECT_NEAR(json["noise"]["sigma_degc"], 0.01 * report.sigma_counts, 1e-6);
   EXPECT_NEAR(json["range"]["mean_degc"], 0.01 * report.range_counts, 1e-6);
+  EXPECT_NEAR(json["noise"]["pixel_sigma_counts"], report.pixel_sigma_counts, 1e-6);
+  EXPECT_EQ(json["noise"]["kind"], "white");
+  ASSERT_EQ(json["noise"]["spectrum"].size(), 8U);
+  EXPECT_NEAR(json["noise"]["spectrum"][2][3], report.spectrum[8 * 2 + 3], 1e-6);
   EXPECT_TRUE(json["noise"]["fixed_pattern_share"].is_null());
   EXPECT_EQ(json["series"]["median_counts"].size(), 3U);
   EXPECT_EQ(json["column_profile_counts"].size(), 96U);
@@ -54,7 +58,7 @@ RecordingReport report_with_every_suggestion() {
   report.width = 160;
   report.height = 120;
   report.container_bits = 16;
-  report.sigma_counts = 9.64;
+  report.sigma_counts = report.pixel_sigma_counts = 9.64;
   report.frame_sigma_counts = 8;
   report.passing_bad_pixels = 30;
   report.row_sigma_counts = 2.1;
@@ -91,6 +95,16 @@ TEST(ProbeFile, SuggestionsAreTakenByTheDetector) {
   EXPECT_EQ(dump_config(set), dump_config(options));
 }
 
+// The noise model of these presets has a map.
+TEST(ProbeFile, RobustAndFastAreToldNoSigma) {
+  const auto report = report_with_every_suggestion();
+  for (const Preset preset : {Preset::kRobust, Preset::kFast}) {
+    for (const SuggestedOption& option : suggest_options(report, preset)) {
+      EXPECT_NE(option.name, "denoise.sigma_counts");
+    }
+  }
+}
+
 TEST(ProbeFile, WithoutSuggestionsTheTomlIsStillRead) {
   RecordingReport report = report_with_every_suggestion();
   report.suggested.clear();
@@ -114,7 +128,7 @@ TEST_P(SuggestedGain, IsTheFinestThatClipsLittle) {
   report.width = 640;
   report.height = 512;
   report.container_bits = 16;
-  report.sigma_counts = GetParam().sigma;
+  report.sigma_counts = report.pixel_sigma_counts = GetParam().sigma;
   report.frame_sigma_counts = GetParam().sigma;
   report.clipping = GetParam().clipping;
   const auto options = suggest_options(report, Preset::kPaper);
@@ -124,7 +138,7 @@ TEST_P(SuggestedGain, IsTheFinestThatClipsLittle) {
 TEST(SuggestedOptions, TuningSaysHowMuchMayBeClipped) {
   RecordingReport report;
   report.container_bits = 16;
-  report.sigma_counts = report.frame_sigma_counts = 5;
+  report.sigma_counts = report.pixel_sigma_counts = report.frame_sigma_counts = 5;
   report.width = 640;
   report.height = 512;
   report.clipping = {{1, 0.4}, {0.5, 0.16}, {0.2, 0.01}, {0.1, 0}};

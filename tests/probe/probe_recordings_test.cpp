@@ -82,6 +82,8 @@ TEST(ProbeRecordings, HandHeldPi450) {
   const auto report = probe(frames);
   EXPECT_EQ(report.frames, 100);
   expect_within_a_tenth(report.sigma_counts, 5.8);
+  expect_within_a_tenth(report.pixel_sigma_counts, 5.8);
+  EXPECT_EQ(report.noise_kind, NoiseKind::kWhite);
   expect_within_a_tenth(report.robust_range_counts, 744);
   expect_within_a_tenth(report.snr.value_or(0), 128);
   expect_within_a_tenth(report.clipped_share(0.5), 0.157);
@@ -103,9 +105,11 @@ TEST(ProbeRecordings, RoadCamera) {
   const auto frames = frames_of("data/fieldscale_road");
   const auto report = probe(frames);
   EXPECT_EQ(report.frames, 10);
-  expect_within_a_tenth(report.sigma_counts, 9.7);
+  expect_within_a_tenth(report.sigma_counts, 11.7);
+  expect_within_a_tenth(report.pixel_sigma_counts, 9.7);
+  EXPECT_EQ(report.noise_kind, NoiseKind::kPartSmooth);
   expect_within_a_tenth(report.robust_range_counts, 4686);
-  expect_within_a_tenth(report.snr.value_or(0), 485);
+  expect_within_a_tenth(report.snr.value_or(0), 405);
   EXPECT_NEAR(report.offset_map_gain_8_frames.value_or(0), gain_of_a_map(frames), 0.04);
   EXPECT_LT(report.frame_sigma_counts, 9);
 }

@@ -27,7 +27,7 @@ TEST_F(ProbeProgram, PrintsAPage) {
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_EQ(result.err, "");
   EXPECT_GE(count_lines(result.out), 25U);
-  EXPECT_LE(count_lines(result.out), 45U);
+  EXPECT_LE(count_lines(result.out), 50U);
   std::istringstream lines(result.out);
   for (std::string line; std::getline(lines, line);) {
     EXPECT_LE(line.size(), 100U) << line;

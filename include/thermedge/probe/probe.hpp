@@ -2,14 +2,17 @@
 // options of the detector suit it.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "thermedge/image.hpp"
+#include "thermedge/noise_model.hpp"
 #include "thermedge/presets.hpp"
 #include "thermedge/radiometry/grey_scale.hpp"
 #include "thermedge/radiometry/planck.hpp"
@@ -35,11 +38,33 @@ struct CountHistogram {
   std::int64_t below = 0, above = 0;  // pixels outside the bins
 };
 
-// Spatial sigma over the picture, mean over the frames; tiles of about 32 px, row by row.
+// The noise over the picture as the detector's noise model has it, mean over the frames; tiles of
+// about 24 px, row by row. All 0 where there is none.
 struct NoiseMap {
   int columns = 0, rows = 0;
   std::vector<double> sigma_counts;
 };
+
+// What the spectrum of noise tells of its past.
+enum class NoiseKind {
+  kNone,
+  kWhite,       // neighbouring pixels have nothing in common
+  kPartSmooth,  // they are a little alike
+  kSmooth,      // they are alike: resampled, enlarged, blurred, compressed
+  kSharpened    // more from pixel to pixel than over several
+};
+inline constexpr std::array kNoiseKinds = {
+    EnumName{NoiseKind::kNone, "none"}, EnumName{NoiseKind::kWhite, "white"},
+    EnumName{NoiseKind::kPartSmooth, "partly_smooth"}, EnumName{NoiseKind::kSmooth, "smooth"},
+    EnumName{NoiseKind::kSharpened, "sharpened"}};
+
+// By the mean variance of the frequencies with periods under 3.3 px, in units of that at the scale
+// of edges: white noise has 0.9 to 1.1, resampled half a pixel off or enlarged 0.05 to 0.1, an
+// image that was rotated 0.25, cameras with filters of their own 0.4 to 0.6.
+[[nodiscard]] NoiseKind noise_kind(const NoiseSpectrum& spectrum);
+
+// In at most 55 characters.
+[[nodiscard]] std::string_view noise_kind_meaning(NoiseKind kind);
 
 // One frame of the series. Of long recordings every 2nd, 4th ... frame is kept, at most 4096.
 struct ProbeSample {
@@ -61,15 +86,15 @@ struct SuggestedOption {
 
 // Values that the recording can't tell are nullopt. `share` and `gain` are parts of 1.
 //
-// Noise. All sigmas use the residual of [1 -2 1] x [1 -2 1] / 6: unit gain for white noise, blind
-// to planes, columns and rows. A tile's sigma is 1.4826 times the median of the residual over the
-// flatter half *of that tile*, the recording's the root mean square over the tiles, mean over the
-// frames. Ranking the slopes within tiles matters where noise is uneven, because noise makes
-// slopes: the flatter half of a whole frame is its quieter half, and that is what NoiseEstimator
-// gives. A road camera with 15 counts in its cold sky and 8 on the ground has 9.6 by tiles (9.4 by
-// the median over whole frames) and 8.4 by NoiseEstimator; of simulated halves with 8 and 15 counts
-// (root mean square 12.0) the tiles give 11.8 and NoiseEstimator 9.6. Where noise is even they
-// agree.
+// Noise. `sigma_counts` is what the detector goes by. All other sigmas use the residual of [1 -2 1]
+// x [1 -2 1] / 6: unit gain for white noise, blind to planes, columns and rows. A tile's sigma
+// is 1.4826 times the median of the residual over the flatter half *of that tile*, the recording's
+// the root mean square over the tiles, mean over the frames. Ranking the slopes within tiles
+// matters where noise is uneven, because noise makes slopes: the flatter half of a whole frame is
+// its quieter half, and that is what NoiseEstimator gives. A road camera with 15 counts in its cold
+// sky and 8 on the ground has 9.6 by tiles (9.4 by the median over whole frames) and 8.4 by
+// NoiseEstimator; of simulated halves with 8 and 15 counts (root mean square 12.0) the tiles
+// give 11.8 and NoiseEstimator 9.6. Where noise is even they agree.
 //
 // Temporal sigma: the same of the difference of successive residuals, over sqrt 2. The residual
 // hardly sees a scene that moves smoothly, and the flatter halves and the median leave out edges
@@ -99,15 +124,20 @@ struct RecordingReport {
   CountHistogram histogram;
 
   // Noise, counts.
-  double sigma_counts = 0;                           // spatial: temporal and fixed together
-  double frame_sigma_counts = 0;                     // what NoiseEstimator measures on each frame
+  // What the detector's result says of these frames (Detection::sigma_counts), mean over them:
+  // presets robust and fast at the scale of edges, paper from pixel to pixel. 0: none to be told.
+  double sigma_counts = 0;
+  NoiseSpectrum spectrum = white_spectrum();  // of the same; 1 for white noise
+  NoiseKind noise_kind = NoiseKind::kNone;
+  NoiseMap noise_map;
+  double pixel_sigma_counts = 0;  // from pixel to pixel: temporal and fixed together
+  double frame_sigma_counts = 0;  // the same as NoiseEstimator measures it on each frame
   std::optional<double> temporal_sigma_counts;       // needs two different frames
   std::optional<double> fixed_pattern_sigma_counts;  // offsets of the pixels
-  std::optional<double> fixed_pattern_share;         // of the spatial variance
-  // By how much an offset map would lower sigma: learned from 8 frames,
+  std::optional<double> fixed_pattern_share;         // of the variance from pixel to pixel
+  // By how much an offset map would lower that sigma: learned from 8 frames,
   // 1 - sqrt((1 - share) (1 + 1 / 8)), and from any number, 1 - sqrt(1 - share).
   std::optional<double> offset_map_gain_8_frames, offset_map_gain_limit;
-  NoiseMap noise_map;
 
   // Stripes, counts: as NoiseEstimator measures them, and the offset of each column (row) against
   // its up to 8 nearest, median along it, mean over the frames.
@@ -137,6 +167,9 @@ struct RecordingReport {
   Preset preset = Preset::kRobust;         // whose options these are
   std::vector<SuggestedOption> suggested;  // where its defaults don't suit
 
+  // The spectrum with what stripes add to the frequencies of 0, which the model leaves out: those
+  // of columns in the first row, [u], those of rows in the first column, [8 v].
+  [[nodiscard]] NoiseSpectrum spectrum_with_stripes() const;
   // Share clipped at a gain of `clipping`; 0 for other gains.
   [[nodiscard]] double clipped_share(double gain) const;
 };
@@ -147,12 +180,12 @@ struct SuggestionTuning {
   double most_clipped_share = 0.02;  // of the pixels, that a gain may clip, 0..1
   double coarsest_level_sigmas = 2;  // a level coarser than this many sigma hides what noise leaves
   double finest_level_sigmas = 0.25;  // a level finer than this many sigma shows noise alone
-  double sigma_tolerance = 0.05;  // relative difference between the two measurements of noise that
-                                  // matters; NoiseEstimator is within .02
-  double stripes_sigmas = 0.2;    // least stripes in units of the noise: strong edges alone look
-                                  // like an eighth (noise.hpp)
-  double passing_share = 2e-4;    // of the pixels, that are taken for dead and soon recover, 0..1
-  double threshold_factor = 2;    // on bad_pixels.threshold_sigmas, where there are more
+  double sigma_tolerance = 0.05;      // relative difference between two measurements of noise that
+                                      // matters; NoiseEstimator is within .02
+  double stripes_sigmas = 0.2;      // least stripes in units of the noise: strong edges alone look
+                                    // like an eighth (noise.hpp)
+  double passing_share = 2e-4;      // of the pixels, that are taken for dead and soon recover, 0..1
+  double threshold_factor = 2;      // on bad_pixels.threshold_sigmas, where there are more
   double small_frame_scale = 0.75;  // below this part of the paper's frames (width and height
                                     // together) limits in pixels shrink with the frame
 };
@@ -168,7 +201,7 @@ struct ProbeTuning {
 
 // Looks at a recording frame by frame. Memory: a few pictures, whatever the number of frames.
 // After the second frame add() allocates nothing. Not thread-safe: one probe per thread.
-// The same frames give the same report everywhere. Cost: about 10 ms a frame of 382x288.
+// The same frames give the same report everywhere. Cost: about 11 ms a frame of 382x288.
 class RecordingProbe {
  public:
   explicit RecordingProbe(const ProbeOptions& options = {}, const ProbeTuning& tuning = {});

@@ -80,7 +80,7 @@ Json to_json(const NoiseSpectrum& spectrum) {
 // Figures that were measured on the frame, and the choices that follow from them.
 Json measured(const Detection& detection) {
   const NoiseEstimate& noise = detection.corrections.noise;
-  Json json = {{"sigma_counts", rounded(noise.sigma_counts)},
+  Json json = {{"pixel_sigma_counts", rounded(noise.sigma_counts)},
                {"column_sigma_counts", rounded(noise.column_sigma_counts)},
                {"row_sigma_counts", rounded(noise.row_sigma_counts)}};
   if (detection.unit_counts > 0) {

@@ -1,6 +1,7 @@
 #include "thermedge/io/probe_file.hpp"
 #include "thermedge/options.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -40,9 +41,31 @@ Json range_json(const RecordingReport& report) {
           {"degc_per_level", rounded(degc_per_level(report.range_counts * degc))}};
 }
 
+std::string_view name_of(NoiseKind kind) {
+  return std::find_if(kNoiseKinds.begin(), kNoiseKinds.end(),
+                      [&](const auto& known) { return known.value == kind; })
+      ->name;
+}
+
+// 8 rows of 8 variances.
+Json spectrum_json(const NoiseSpectrum& spectrum) {
+  Json rows = Json::array();
+  for (std::size_t v = 0; v < kNoiseBlockPx; ++v) {
+    Json row = Json::array();
+    for (std::size_t u = 0; u < kNoiseBlockPx; ++u) {
+      row.push_back(rounded(static_cast<double>(spectrum[v * kNoiseBlockPx + u])));
+    }
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
 Json noise_json(const RecordingReport& report) {
   return {{"sigma_counts", rounded(report.sigma_counts)},
           {"sigma_degc", rounded(report.sigma_counts * report.degc_per_count)},
+          {"kind", name_of(report.noise_kind)},
+          {"spectrum", spectrum_json(report.spectrum)},
+          {"pixel_sigma_counts", rounded(report.pixel_sigma_counts)},
           {"frame_sigma_counts", rounded(report.frame_sigma_counts)},
           {"temporal_sigma_counts", rounded(report.temporal_sigma_counts)},
           {"fixed_pattern_sigma_counts", rounded(report.fixed_pattern_sigma_counts)},
