@@ -91,7 +91,7 @@ class Page {
   // The remedy, where there is one.
   [[nodiscard]] std::string lost_to_clipping() const {
     for (const SuggestedOption& option : report_.suggested) {
-      if (option.name == "scale.gain") {
+      if (option.name == "grey_scale.gain") {
         return fmt::format("edges there are lost: use --set {}={}", option.name, option.value);
       }
     }

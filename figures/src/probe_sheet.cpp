@@ -108,7 +108,7 @@ class ProbePanels {
     return gain == 0.5 || gain == 0.2 ||
            std::any_of(report_.suggested.begin(), report_.suggested.end(),
                        [&](const SuggestedOption& option) {
-                         return option.name == "scale.gain" &&
+                         return option.name == "grey_scale.gain" &&
                                 option.value == fmt::format("{:g}", gain);
                        });
   }

@@ -101,6 +101,12 @@ TEST_F(Pages, ProbeDrawsMapAndSpectrumAsText) {
   EXPECT_EQ(rows[7].find_first_not_of(" .", 5), std::string::npos) << rows[7];
 }
 
+TEST_F(Pages, ProbeNamesTheGainThatClipsLess) {
+  const std::string page = output_of("probe --preset paper 'sim:desk?width=96&height=72'");
+  EXPECT_NE(page.find("edges there are lost: use --set grey_scale.gain=0.2"), std::string::npos)
+      << page;
+}
+
 struct NoiseWord {
   const char* sigma;
   const char* word;
