@@ -158,7 +158,7 @@ TEST_F(Inputs, ResultsAreNamedAfterTheirFrames) {
   write_frame("b/x.png");
   const std::string inputs = " a/x.png 'sim:desk?width=48&height=36&frames=2' b/x.png ";
   const Files pictures = {"x.png", "x_2.png", "desk_0000.png", "desk_0001.png"};
-  for (const std::string command : {"scale", "denoise --method gaussian"}) {
+  for (const std::string command : {"scale --gain 0.2", "denoise --method gaussian"}) {
     ASSERT_EQ(output_of(command + inputs + "-o " + command.substr(0, 5)), "");
     EXPECT_EQ(files_in(command.substr(0, 5)), pictures) << command;
   }
@@ -178,9 +178,10 @@ TEST_F(Inputs, ResultsAreNamedAfterTheirFrames) {
 
 TEST_F(Inputs, OneFileHoldsTheFirstFrameOnly) {
   write_frame("frame.png");
-  for (const std::string command : {"scale", "denoise --method gaussian", "detect --denoise none",
-                                    "trace", "stages --panel-px 100 --denoise none",
-                                    "compare --panel-px 100 --set denoise.method=none"}) {
+  for (const std::string command :
+       {"scale --gain 0.2", "denoise --method gaussian", "detect --denoise none", "trace",
+        "stages --panel-px 100 --denoise none",
+        "compare --panel-px 100 --set denoise.method=none"}) {
     ASSERT_EQ(output_of(command + " frame.png -o alone.png"), "");
     const auto result = run(command + " frame.png sim:corridor -o one.png");
     EXPECT_EQ(result.exit_code, 1) << command;
