@@ -6,12 +6,16 @@
 #include <iterator>
 #include <limits>
 #include <numbers>
+#include <numeric>
 #include <span>
 #include <vector>
 
 #include "contrast_spread.hpp"
 #include "edgel_contrast.hpp"
+#include "hysteresis.hpp"
 #include "order_statistics.hpp"
+#include "sort_simd.hpp"
+#include "suppression_simd.hpp"
 #include "thermedge/memory.hpp"
 #include "thermedge/stages/scoring.hpp"
 
@@ -45,13 +49,18 @@ double trimmed_mean(std::vector<double>& values, double share) {
   if (values.empty()) {
     return 0;
   }
-  std::sort(values.begin(), values.end());
   const auto cut = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size()));
-  double sum = 0;
-  for (auto value = values.begin() + cut; value != values.end() - cut; ++value) {
-    sum += *value;
+  const auto begin = values.begin() + cut;
+  const auto end = values.end() - cut;
+  if (values.size() <= detail::kFewValues) {
+    detail::sort_few(values);
+  } else {  // what is left out needs no order
+    std::nth_element(values.begin(), begin, values.end());
+    std::nth_element(begin, end, values.end());
+    detail::sort_values({begin, end});
   }
-  return sum / static_cast<double>(static_cast<std::ptrdiff_t>(values.size()) - 2 * cut);
+  // In their order, so that it makes no difference from which end the edge is walked.
+  return std::accumulate(begin, end, 0.0) / static_cast<double>(end - begin);
 }
 
 // Root mean square of the map's levels along an edge.
@@ -101,7 +110,8 @@ struct SignificanceTest::Impl {
 
   SignificanceTuning tuning;
   detail::ContrastSpread spread;
-  Image<float> strongest_in_row;
+  std::vector<float> of_scene;    // responses of a row, with a margin of clearance_px
+  Image<float> strongest_in_row;  // with clearance_px rows of zeros above and below
   Image<float> strongest;
   std::vector<float> responses;
   Image<std::uint8_t> busy;
@@ -112,7 +122,14 @@ struct SignificanceTest::Impl {
 
 void SignificanceTest::Impl::prepare(int width, int height, const EdgeSet& edges) {
   spread.prepare(width, height);
-  strongest_in_row.resize(width, height);
+  const int reach = tuning.spread.clearance_px;
+  constexpr int kVector = Image<float>::kAlignmentBytes / int{sizeof(float)};
+  of_scene.resize(static_cast<std::size_t>(width + 2 * reach + kVector));
+  strongest_in_row.resize(width, height + 2 * reach);
+  for (int i = 0; i < reach; ++i) {
+    std::fill_n(strongest_in_row.row(i), width, 0.0F);
+    std::fill_n(strongest_in_row.row(height + 2 * reach - 1 - i), width, 0.0F);
+  }
   strongest.resize(width, height);
   responses.reserve(strongest.size());
   busy.resize(width, height);
@@ -127,46 +144,47 @@ void SignificanceTest::Impl::find_strongest(const OrientedFilterResult& pixels,
   const int width = pixels.edges.width();
   const int height = pixels.edges.height();
   const int reach = tuning.spread.clearance_px;
+  const int taps = 2 * reach + 1;
   const auto sure = static_cast<float>(tuning.spread.sure_response);
   for (int y = 0; y < height; ++y) {
-    float* row = strongest_in_row.row(y);
-    std::fill_n(row, width, 0.0F);
-    for (int x = 0; x < width; ++x) {
-      const bool is_valid = valid.empty() || valid(x, y) != 0;
-      const float response = !is_valid                 ? std::numeric_limits<float>::infinity()
-                             : pixels.edges(x, y) != 0 ? pixels.suppressed_response(x, y)
-                                                       : 0;
-      if (response > sure) {
-        float* const end = row + std::min(x + reach + 1, width);
-        std::transform(row + std::max(x - reach, 0), end, row + std::max(x - reach, 0),
-                       [=](float other) { return std::max(other, response); });
-      }
+    float* row = of_scene.data() + reach;
+    std::fill(of_scene.begin(), of_scene.end(), 0.0F);
+    const std::uint8_t* const edges = pixels.edges.row(y);
+    const std::uint8_t* const end = edges + width;
+    const std::uint8_t* at = edges;
+    while ((at = detail::find_pixel(at, end, detail::kKeptEdge)) != end) {
+      const float response = pixels.suppressed_response(static_cast<int>(at - edges), y);
+      row[at++ - edges] = response > sure ? response : 0;
     }
+    if (!valid.empty()) {
+      std::transform(row, row + width, valid.row(y), row, [](float response, std::uint8_t is_valid) {
+        return is_valid != 0 ? response : std::numeric_limits<float>::infinity();
+      });
+    }
+    detail::largest_row(of_scene.data(), 1, taps, width, strongest_in_row.row(y + reach));
   }
   for (int y = 0; y < height; ++y) {
-    float* row = strongest.row(y);
-    std::fill_n(row, width, 0.0F);
-    for (int v = std::max(y - reach, 0); v <= std::min(y + reach, height - 1); ++v) {
-      std::transform(row, row + width, strongest_in_row.row(v), row,
-                     [](float one, float other) { return std::max(one, other); });
-    }
+    detail::largest_row(strongest_in_row.row(y), strongest_in_row.stride(), taps, width,
+                        strongest.row(y));
   }
 }
 
 // What the response of an edge of the scene exceeds. More than usual where such responses are all
 // over the frame: they are a pattern of the sensor then, or a texture.
 float SignificanceTest::Impl::response_of_scene() {
-  const auto usual = static_cast<float>(tuning.spread.sure_response);
-  responses.clear();
+  responses.clear();  // those near edges
+  std::size_t free = 0;
   for (int y = 0; y < strongest.height(); ++y) {
-    std::copy_if(strongest.row(y), strongest.row(y) + strongest.width(),
-                 std::back_inserter(responses),
-                 [](float response) { return std::isfinite(response); });
+    const float* const row = strongest.row(y);
+    std::copy_if(row, row + strongest.width(), std::back_inserter(responses),
+                 [](float response) { return response > 0 && std::isfinite(response); });
+    free += static_cast<std::size_t>(std::count(row, row + strongest.width(), 0.0F));
   }
-  const auto free = static_cast<std::size_t>(std::count(responses.begin(), responses.end(), 0.0F));
-  const auto rank = static_cast<std::size_t>(tuning.spread.least_measured *
-                                             static_cast<double>(responses.size()));
-  return free > rank || responses.empty() ? usual : detail::nth_value(std::span(responses), rank);
+  const auto rank = static_cast<std::size_t>(
+      tuning.spread.least_measured * static_cast<double>(free + responses.size()));
+  return free > rank || responses.empty()
+             ? static_cast<float>(tuning.spread.sure_response)
+             : detail::nth_value(std::span(responses), rank - free);
 }
 
 void SignificanceTest::Impl::mark_busy(const OrientedFilterResult& pixels,
@@ -324,7 +342,7 @@ SignificanceTest& SignificanceTest::operator=(SignificanceTest&&) noexcept = def
 SignificanceTest::~SignificanceTest() = default;
 
 std::size_t SignificanceTest::memory_bytes() const {
-  return detail::memory_of(impl_->spread, impl_->strongest_in_row, impl_->strongest,
+  return detail::memory_of(impl_->spread, impl_->of_scene, impl_->strongest_in_row, impl_->strongest,
                            impl_->responses, impl_->busy, impl_->of_edgels, impl_->evidence);
 }
 
