@@ -27,7 +27,7 @@ Status RobustPipeline::detect(const Frame& frame, const Call& call, Detection& f
   THERMEDGE_TRY(clock.lap("corners", corner_finder_.run(linked_.contours, corners_)));
   THERMEDGE_TRY(clock.lap(
       "scores", scorer_.run(linked_, corners_, pixels_.suppressed_response, found.edges)));
-  test_edges(found);
+  test_edges(call.runner, found);
   THERMEDGE_TRY(clock.lap("significance", {}));
   refine_positions(pixels_.response, pixels_.kernel, found.sigma_counts / noise_.unit_counts,
                    found.edges);
@@ -188,8 +188,9 @@ Status RobustPipeline::close_gaps() {
 }
 
 // On the counts before denoising: a denoiser can invent an edge, the frame itself confirms it.
-void RobustPipeline::test_edges(Detection& found) {
-  significance_.run(counts_, noise_to_mind(found), preprocessor_.valid(), pixels_, found.edges);
+void RobustPipeline::test_edges(ParallelRunner& runner, Detection& found) {
+  significance_.run(counts_, noise_to_mind(found), preprocessor_.valid(), pixels_, found.edges,
+                    runner);
 }
 
 Status RobustPipeline::select(Detection& found) {

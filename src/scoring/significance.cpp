@@ -98,11 +98,14 @@ struct SignificanceTest::Impl {
   void mark_busy(const OrientedFilterResult& pixels, ImageView<const std::uint8_t> valid);
   void orient(const OrientedFilterResult& pixels, const Edge& edge, Edgels& edgels) const;
   detail::Contrast contrast_of(ImageView<const std::uint16_t> frame, const Edgels& edgels,
-                               Range range);
+                               Range range, std::vector<double>& of_edgels) const;
   SideSlopes slopes(ImageView<const std::uint16_t> frame, const Edgels& edgels, Range range,
-                    double side);
+                    double side, std::vector<double>& of_edgels) const;
   double explained(ImageView<const std::uint16_t> frame, const Edgels& edgels, Range range,
-                   double level, double contrast);
+                   double level, double contrast, std::vector<double>& of_edgels) const;
+  void test_edge(ImageView<const std::uint16_t> frame, const NoiseModel& noise,
+                 const OrientedFilterResult& pixels, std::vector<double>& of_edgels, Edgels& edgels,
+                 Edge& edge) const;
   [[nodiscard]] double z_of_edge(const NoiseModel& noise, const Edgels& edgels, const Edge& edge,
                                  const Step& step) const;
   [[nodiscard]] Evidence evidence_for(const Edge& edge) const;
@@ -115,7 +118,8 @@ struct SignificanceTest::Impl {
   Image<float> strongest;
   std::vector<float> responses;
   Image<std::uint8_t> busy;
-  std::vector<double> of_edgels;
+  // Each task takes every so many-th edge; their values for the edgels of one edge.
+  std::array<std::vector<double>, 4> scratch;
   std::vector<Evidence> evidence;  // for each edge
   std::array<Vector, kEdgeDirections> along = directions();
 };
@@ -133,7 +137,9 @@ void SignificanceTest::Impl::prepare(int width, int height, const EdgeSet& edges
   strongest.resize(width, height);
   responses.reserve(strongest.size());
   busy.resize(width, height);
-  of_edgels.reserve(edges.edgels.x.capacity());
+  for (std::vector<double>& values : scratch) {
+    values.reserve(edges.edgels.x.capacity());
+  }
   evidence.reserve(edges.edges.capacity());
 }
 
@@ -157,9 +163,10 @@ void SignificanceTest::Impl::find_strongest(const OrientedFilterResult& pixels,
       row[at++ - edges] = response > sure ? response : 0;
     }
     if (!valid.empty()) {
-      std::transform(row, row + width, valid.row(y), row, [](float response, std::uint8_t is_valid) {
-        return is_valid != 0 ? response : std::numeric_limits<float>::infinity();
-      });
+      std::transform(row, row + width, valid.row(y), row,
+                     [](float response, std::uint8_t is_valid) {
+                       return is_valid != 0 ? response : std::numeric_limits<float>::infinity();
+                     });
     }
     detail::largest_row(of_scene.data(), 1, taps, width, strongest_in_row.row(y + reach));
   }
@@ -180,11 +187,10 @@ float SignificanceTest::Impl::response_of_scene() {
                  [](float response) { return response > 0 && std::isfinite(response); });
     free += static_cast<std::size_t>(std::count(row, row + strongest.width(), 0.0F));
   }
-  const auto rank = static_cast<std::size_t>(
-      tuning.spread.least_measured * static_cast<double>(free + responses.size()));
-  return free > rank || responses.empty()
-             ? static_cast<float>(tuning.spread.sure_response)
-             : detail::nth_value(std::span(responses), rank - free);
+  const auto rank = static_cast<std::size_t>(tuning.spread.least_measured *
+                                             static_cast<double>(free + responses.size()));
+  return free > rank || responses.empty() ? static_cast<float>(tuning.spread.sure_response)
+                                          : detail::nth_value(std::span(responses), rank - free);
 }
 
 void SignificanceTest::Impl::mark_busy(const OrientedFilterResult& pixels,
@@ -212,7 +218,8 @@ void SignificanceTest::Impl::orient(const OrientedFilterResult& pixels, const Ed
 
 // Where an edge begins or ends at another one, the contrast is that of the other one.
 detail::Contrast SignificanceTest::Impl::contrast_of(ImageView<const std::uint16_t> frame,
-                                                     const Edgels& edgels, Range range) {
+                                                     const Edgels& edgels, Range range,
+                                                     std::vector<double>& of_edgels) const {
   of_edgels.clear();
   detail::Contrast found;
   detail::for_each_run(range, [&](std::size_t first, std::size_t count) {
@@ -230,7 +237,8 @@ detail::Contrast SignificanceTest::Impl::contrast_of(ImageView<const std::uint16
 }
 
 SideSlopes SignificanceTest::Impl::slopes(ImageView<const std::uint16_t> frame,
-                                          const Edgels& edgels, Range range, double side) {
+                                          const Edgels& edgels, Range range, double side,
+                                          std::vector<double>& of_edgels) const {
   const SideSlopeTuning& own = tuning.slopes;
   const auto mean_over = [&](double from_px, double to_px) {
     of_edgels.clear();
@@ -252,10 +260,11 @@ SideSlopes SignificanceTest::Impl::slopes(ImageView<const std::uint16_t> frame,
 
 // The part of a contrast that slopes of the scene explain, counts.
 double SignificanceTest::Impl::explained(ImageView<const std::uint16_t> frame, const Edgels& edgels,
-                                         Range range, double level, double contrast) {
+                                         Range range, double level, double contrast,
+                                         std::vector<double>& of_edgels) const {
   const SideSlopeTuning& own = tuning.slopes;
-  SideSlopes ahead = slopes(frame, edgels, range, 1);
-  SideSlopes behind = slopes(frame, edgels, range, -1);
+  SideSlopes ahead = slopes(frame, edgels, range, 1, of_edgels);
+  SideSlopes behind = slopes(frame, edgels, range, -1, of_edgels);
   // Beside the border of the frame the slope is taken to go on as it does on the other side.
   if (!ahead.are_measured || !behind.are_measured) {
     (ahead.are_measured ? behind : ahead) = ahead.are_measured ? ahead : behind;
@@ -279,6 +288,27 @@ double SignificanceTest::Impl::z_of_edge(const NoiseModel& noise, const Edgels& 
       std::min(step.slope / (noise.level_counts * std::sqrt(variance * of_slope)), 1.0);
   return step.counts /
          (noise.level_counts * std::sqrt(variance * (1 - of_slope + share * of_slope)));
+}
+
+void SignificanceTest::Impl::test_edge(ImageView<const std::uint16_t> frame,
+                                       const NoiseModel& noise, const OrientedFilterResult& pixels,
+                                       std::vector<double>& of_edgels, Edgels& edgels,
+                                       Edge& edge) const {
+  detail::set_normals(edgels, edge);
+  orient(pixels, edge, edgels);
+  detail::Contrast contrast = contrast_of(frame, edgels, edge.edgels, of_edgels);
+  detail::take_contrast(frame, noise.level_counts, edgels, edge, contrast);
+  edge.contrast_sigmas = detail::in_sigmas(
+      edge.contrast_counts, noise.level_counts * level_along(noise.map, edgels, edge.edgels));
+  const double slope =
+      explained(frame, edgels, edge.edgels, noise.level_counts, contrast.counts, of_edgels);
+  contrast.counts = std::max(contrast.counts - slope, 0.0);
+  if (noise.level_counts > 0) {
+    edge.z = z_of_edge(noise, edgels, edge, {contrast.counts, slope});
+  } else {
+    edge.z = detail::z_of(contrast, 0);
+    edge.log10_nfa = detail::log10_tail(edge.z);
+  }
 }
 
 Evidence SignificanceTest::Impl::evidence_for(const Edge& edge) const {
@@ -342,38 +372,32 @@ SignificanceTest& SignificanceTest::operator=(SignificanceTest&&) noexcept = def
 SignificanceTest::~SignificanceTest() = default;
 
 std::size_t SignificanceTest::memory_bytes() const {
-  return detail::memory_of(impl_->spread, impl_->of_scene, impl_->strongest_in_row, impl_->strongest,
-                           impl_->responses, impl_->busy, impl_->of_edgels, impl_->evidence);
+  std::size_t sum =
+      detail::memory_of(impl_->spread, impl_->of_scene, impl_->strongest_in_row, impl_->strongest,
+                        impl_->responses, impl_->busy, impl_->evidence);
+  for (const std::vector<double>& values : impl_->scratch) {
+    sum += detail::memory_of(values);
+  }
+  return sum;
 }
 
 void SignificanceTest::run(ImageView<const std::uint16_t> frame, const NoiseModel& noise,
                            ImageView<const std::uint8_t> valid, const OrientedFilterResult& pixels,
-                           EdgeSet& edges) {
+                           EdgeSet& edges, ParallelRunner& runner) {
   Impl& self = *impl_;
   const bool is_noisy = noise.level_counts > 0;
   self.prepare(frame.width(), frame.height(), edges);
   if (is_noisy) {
     self.mark_busy(pixels, valid);
-    self.spread.measure(frame, self.busy, noise);
+    self.spread.measure(frame, self.busy, noise, runner);
   }
-  Edgels& edgels = edges.edgels;
-  for (Edge& edge : edges.edges) {
-    detail::set_normals(edgels, edge);
-    self.orient(pixels, edge, edgels);
-    detail::Contrast contrast = self.contrast_of(frame, edgels, edge.edgels);
-    detail::take_contrast(frame, noise.level_counts, edgels, edge, contrast);
-    edge.contrast_sigmas = detail::in_sigmas(
-        edge.contrast_counts, noise.level_counts * level_along(noise.map, edgels, edge.edgels));
-    const double slope =
-        self.explained(frame, edgels, edge.edgels, noise.level_counts, contrast.counts);
-    contrast.counts = std::max(contrast.counts - slope, 0.0);
-    if (is_noisy) {
-      edge.z = self.z_of_edge(noise, edgels, edge, {contrast.counts, slope});
-    } else {
-      edge.z = detail::z_of(contrast, 0);
-      edge.log10_nfa = detail::log10_tail(edge.z);
+  const auto tasks = self.scratch.size();
+  runner.run(static_cast<int>(tasks), [&](int task) {
+    const auto first = static_cast<std::size_t>(task);
+    for (std::size_t i = first; i < edges.edges.size(); i += tasks) {
+      self.test_edge(frame, noise, pixels, self.scratch[first], edges.edgels, edges.edges[i]);
     }
-  }
+  });
   if (is_noisy) {
     self.count_false_alarms(static_cast<double>(frame.size()), edges);
   }

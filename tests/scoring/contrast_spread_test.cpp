@@ -46,7 +46,7 @@ class Spread {
     Image<std::uint8_t> none(frame.width(), frame.height());
     fill_pixels(none.view(), std::uint8_t{0});
     spread_.prepare(frame.width(), frame.height());
-    spread_.measure(frame, busy.empty() ? none.view() : busy, noise);
+    spread_.measure(frame, busy.empty() ? none.view() : busy, noise, *make_runner(1));
   }
 
   // Variance of the mean contrast times the number of edgels.
