@@ -146,11 +146,12 @@ ImageView<const float> RobustPipeline::even_out(const NoiseLevelMap& map) {
   if (map.is_even()) {
     return denoised_;
   }
-  double sum = 0;
+  std::uint64_t sum = 0;
   for (int y = 0; y < counts_.height(); ++y) {
-    sum += std::accumulate(counts_.row(y), counts_.row(y) + counts_.width(), 0.0);
+    sum += std::accumulate(counts_.row(y), counts_.row(y) + counts_.width(), std::uint32_t{0});
   }
-  const auto mean = static_cast<float>(sum / static_cast<double>(counts_.size()));
+  const auto mean =
+      static_cast<float>(static_cast<double>(sum) / static_cast<double>(counts_.size()));
   map.even_out(denoised_, mean, mean, evened_);
   return evened_;
 }
