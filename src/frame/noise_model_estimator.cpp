@@ -90,19 +90,27 @@ bool is_clipped(ImageView<const std::uint16_t> block, const Extremes& frame) {
 void NoiseModelEstimator::measure(ImageView<const std::uint16_t> frame,
                                   ImageView<const std::uint8_t> valid, double pixel_sigma_counts,
                                   NoiseModel& model) {
-  model.set_white(pixel_sigma_counts);
+  if (!find(frame, valid, model)) {
+    model.set_white(pixel_sigma_counts);
+  }
+}
+
+bool NoiseModelEstimator::find(ImageView<const std::uint16_t> frame,
+                               ImageView<const std::uint8_t> valid, NoiseModel& model) {
+  model.set_white(0);
   if (std::min(frame.width(), frame.height()) < kSide) {
-    return;
+    return false;
   }
   model.map.reserve(frame.width(), frame.height());
   transform_blocks(frame, valid);
   if (coefficients_.size() < tuning_.fewest_blocks) {
-    return;
+    return false;
   }
   find_spectrum(model);
   if (model.level_counts > 0) {
     find_map(frame.width(), frame.height(), model);
   }
+  return true;
 }
 
 void NoiseModelEstimator::transform_blocks(ImageView<const std::uint16_t> frame,

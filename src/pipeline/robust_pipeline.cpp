@@ -30,7 +30,7 @@ Status RobustPipeline::detect(const Frame& frame, const Call& call, Detection& f
   test_edges(call.runner, found);
   THERMEDGE_TRY(clock.lap("significance", {}));
   refine_positions(pixels_.response, pixels_.kernel, found.sigma_counts / noise_.unit_counts,
-                   found.edges);
+                   found.edges, call.runner);
   THERMEDGE_TRY(clock.lap("positions", {}));
   THERMEDGE_TRY(clock.lap("selection", select(found)));
   mark_cut_ends(preprocessor_.valid(), found.edges);
