@@ -152,7 +152,7 @@ TEST(ContrastSpread, OfABentCurveIsTheMeanOfItsParts) {
   const SignificanceTuning tuning;
   detail::ContrastSpread spread(tuning.spread, tuning.slopes, tuning.contrast);
   spread.prepare(kWidth, kHeight);
-  spread.measure(frame, busy, noise);
+  spread.measure(frame, busy, noise, *make_runner(1));
   Edgels bent = curve(80, 1, 0);
   for (std::size_t i = 0; i < 16; ++i) {
     bent.nx[i] = 0;
