@@ -40,7 +40,7 @@ class NoiseLevelMap {
   void set_nodes(ImageView<const float> nodes, int frame_width, int frame_height);
 
   [[nodiscard]] std::size_t memory_bytes() const {
-    return detail::memory_of(nodes_, across_, down_);
+    return detail::memory_of(nodes_, across_, down_, shares_);
   }
 
  private:
@@ -51,12 +51,13 @@ class NoiseLevelMap {
   };
   static void find_places(int pixels, int nodes, std::vector<Place>& places);
   [[nodiscard]] double on_column(int column, const Place& down) const;
-  // task(x, level) for the pixels of a row.
+  // task(x, run) for the runs of pixels of a row between two columns of nodes; x is the first one.
   template <class F>
-  void for_each_in_row(int y, F&& task) const;
+  void for_each_run(int y, F&& task) const;
 
   Image<float> nodes_;
   std::vector<Place> across_, down_;  // of each column and row of the frame
+  std::vector<double> shares_;        // those of across_ again, for kernels; one more at the end
 };
 
 // Variance of each coefficient of the orthonormal discrete cosine transform of blocks of 8 x 8

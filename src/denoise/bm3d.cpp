@@ -85,11 +85,15 @@ Bm3dSettings bm3d_settings(const Bm3dOptions& options, const Bm3dTuning& tuning)
       settings.search_radius_px = 20;
       break;
     case Bm3dProfile::kBalanced:
-      settings.wiener.staggered = true;
+      settings.wiener.thinning = Thinning::kChessboard;
       break;
     case Bm3dProfile::kFast:
-      settings.hard.staggered = true;
-      settings.wiener.staggered = true;
+      settings.hard.thinning = Thinning::kChessboard;
+      settings.wiener.thinning = Thinning::kChessboard;
+      break;
+    case Bm3dProfile::kFastest:
+      settings.hard.thinning = Thinning::kChessboard;
+      settings.wiener.thinning = Thinning::kQuarter;
       break;
   }
   return settings;
@@ -121,8 +125,9 @@ Bm3d::Band Bm3d::band(int index) const {
 }
 
 void Bm3d::prepare(int width, int height) {
-  const bool staggered = settings_.hard.staggered || settings_.wiener.staggered;
-  const int unit = std::max(settings_.step_px, staggered ? 2 * kCellPx : kCellPx);
+  const bool is_thinned =
+      settings_.hard.thinning != Thinning::kNone || settings_.wiener.thinning != Thinning::kNone;
+  const int unit = std::max(settings_.step_px, is_thinned ? 2 * kCellPx : kCellPx);
   width_ = continued(width, unit);
   height_ = continued(height, unit);
   left_ = (width_ - width) / 2;
@@ -196,10 +201,16 @@ void Bm3d::make_columns() {
   fill(odd_columns_, 1, 2);
 }
 
-// Every other row of a staggered stage is shifted, neither the first nor the last.
+// Every other row of a thinned stage, neither the first nor the last, is shifted or empty.
 std::span<const int> Bm3d::columns_of(const StageSettings& stage, int y) const {
-  const bool is_even = y / kCellPx % 2 == 0;
-  return !stage.staggered ? all_columns_ : is_even ? even_columns_ : odd_columns_;
+  if (stage.thinning == Thinning::kNone) {
+    return all_columns_;
+  }
+  if (y / kCellPx % 2 == 0) {
+    return even_columns_;
+  }
+  return stage.thinning == Thinning::kChessboard ? std::span<const int>(odd_columns_)
+                                                 : std::span<const int>();
 }
 
 void Bm3d::filter_row(Stage stage, int y, BandScratch& scratch, const Accumulator& sums) const {

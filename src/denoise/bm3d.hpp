@@ -11,10 +11,16 @@
 
 namespace thermedge::detail {
 
+// Which of the reference blocks a stage takes; others than all for steps of 4 px only.
+enum class Thinning {
+  kNone,
+  kChessboard,  // every other one, like the black squares of a chessboard
+  kQuarter      // every other one of every other row: a quarter, side by side without a gap
+};
+
 struct StageSettings {
   int largest_group = 16;  // blocks: 1, 2, 4, 8, 16 or 32
-  // Every other reference block, like the black squares of a chessboard; for steps of 4 px only.
-  bool staggered = false;
+  Thinning thinning = Thinning::kNone;
 };
 
 // What a profile stands for.
@@ -94,7 +100,7 @@ class Bm3d {
   int left_ = 0;  // what it has before the first column and row of the frame
   int top_ = 0;
   std::vector<int> all_columns_;   // where reference blocks stand, in cells
-  std::vector<int> even_columns_;  // and those of staggered rows
+  std::vector<int> even_columns_;  // and those of thinned rows
   std::vector<int> odd_columns_;
   Image<float> noisy_;     // in units of the noise
   Image<float> estimate_;  // of the stage before

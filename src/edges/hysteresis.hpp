@@ -13,9 +13,10 @@ namespace thermedge::detail {
 inline constexpr std::uint8_t kKeptEdge = 255;
 
 // The first pixel of this value, or `end`.
-inline std::uint8_t* find_pixel(std::uint8_t* begin, std::uint8_t* end, std::uint8_t value) {
-  void* found = std::memchr(begin, value, static_cast<std::size_t>(end - begin));
-  return found != nullptr ? static_cast<std::uint8_t*>(found) : end;
+template <class Byte>
+Byte* find_pixel(Byte* begin, Byte* end, std::uint8_t value) {
+  auto* found = std::memchr(begin, value, static_cast<std::size_t>(end - begin));
+  return found != nullptr ? static_cast<Byte*>(found) : end;
 }
 
 // Keeps the 8-connected groups of at least `min_group_px` pixels that hold a strong one. `classes`:

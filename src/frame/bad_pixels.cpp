@@ -11,22 +11,36 @@ namespace {
 
 using Frame = ImageView<const std::uint16_t>;
 
-// Some of the pixels of a 5x5 neighbourhood, in ascending order.
+// Some of the pixels of a 5x5 neighbourhood.
 class Values {
  public:
-  void add(int value) { values_[count_++] = value; }
-  void sort() { std::sort(values_.begin(), values_.begin() + count_); }
+  void add(int value) {
+    values_[count_++] = value;
+    second_largest_ = std::max(second_largest_, std::min(largest_, value));
+    largest_ = std::max(largest_, value);
+    second_smallest_ = std::min(second_smallest_, std::max(smallest_, value));
+    smallest_ = std::min(smallest_, value);
+  }
   [[nodiscard]] bool empty() const { return count_ == 0; }
   [[nodiscard]] std::size_t size() const { return count_; }
-  [[nodiscard]] int smallest() const { return values_[0]; }
-  [[nodiscard]] int largest() const { return values_[count_ - 1]; }
-  [[nodiscard]] int second_smallest() const { return values_[1]; }
-  [[nodiscard]] int second_largest() const { return values_[count_ - 2]; }
-  [[nodiscard]] int median() const { return (values_[(count_ - 1) / 2] + values_[count_ / 2]) / 2; }
+  [[nodiscard]] int smallest() const { return smallest_; }
+  [[nodiscard]] int largest() const { return largest_; }
+  [[nodiscard]] int second_smallest() const { return second_smallest_; }  // of two or more
+  [[nodiscard]] int second_largest() const { return second_largest_; }
+  [[nodiscard]] int median() const {
+    std::array<int, kMost> sorted = values_;
+    std::sort(sorted.begin(), sorted.begin() + count_);
+    return (sorted[(count_ - 1) / 2] + sorted[count_ / 2]) / 2;
+  }
 
  private:
-  std::array<int, 25> values_{};
+  static constexpr std::size_t kMost = 25;
+  std::array<int, kMost> values_{};
   std::size_t count_ = 0;
+  int smallest_ = std::numeric_limits<int>::max();
+  int second_smallest_ = std::numeric_limits<int>::max();
+  int largest_ = std::numeric_limits<int>::min();
+  int second_largest_ = std::numeric_limits<int>::min();
 };
 
 // The pixels within the frame that lie `radius` columns or rows away from the block of `side` x
@@ -43,7 +57,6 @@ Values ring(Frame frame, int x, int y, int radius, F&& is_good, int side = 1) {
       }
     }
   }
-  values.sort();
   return values;
 }
 

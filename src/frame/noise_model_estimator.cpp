@@ -6,14 +6,13 @@
 #include <span>
 #include <utility>
 
+#include "noise_block_simd.hpp"
 #include "order_statistics.hpp"
 
 namespace thermedge {
 namespace {
 
 constexpr int kSide = kNoiseBlockPx;
-// Of a transform along one axis: all sums of 16-bit counts are exact.
-constexpr int kScaleBits = 11;
 constexpr double kSigmaOverMad = 1.4826;        // of a Gaussian
 constexpr double kRoundingVariance = 1.0 / 12;  // of rounding to whole counts
 
@@ -33,39 +32,6 @@ auto sum_over_frequencies(int last, F&& value) {
     sum += value(v, v);
   }
   return sum;
-}
-
-// Row u: the first half of the cosine of frequency u, times 2^kScaleBits; the second half mirrors
-// it, with the other sign for odd u. Rounded values of sqrt(1/8) and cos(k pi / 16) / 2.
-constexpr std::array<std::array<std::int32_t, kSide / 2>, kSide> kCosines = {
-    {{724, 724, 724, 724},
-     {1004, 851, 569, 200},
-     {946, 392, -392, -946},
-     {851, -200, -1004, -569},
-     {724, -724, -724, 724},
-     {569, -1004, 200, 851},
-     {392, -946, 946, -392},
-     {200, -569, 851, -1004}}};
-
-// One dimension of the transform. Sums and differences of mirrored values come first, so that a
-// mirrored block has the same coefficients but for signs.
-template <class T>
-std::array<T, kSide> transform(const std::array<T, kSide>& values) {
-  std::array<T, kSide / 2> sums;
-  std::array<T, kSide / 2> differences;
-  for (std::size_t i = 0; i < kSide / 2; ++i) {
-    sums[i] = values[i] + values[kSide - 1 - i];
-    differences[i] = values[i] - values[kSide - 1 - i];
-  }
-  std::array<T, kSide> out;
-  for (std::size_t u = 0; u < kSide; ++u) {
-    const auto& half = u % 2 == 0 ? sums : differences;
-    out[u] = 0;
-    for (std::size_t i = 0; i < kSide / 2; ++i) {
-      out[u] += static_cast<T>(kCosines[u][i]) * half[i];
-    }
-  }
-  return out;
 }
 
 // Where blocks begin that cover `length` pixels, the same from both ends.
@@ -119,44 +85,32 @@ bool is_clipped(ImageView<const std::uint16_t> block, const Extremes& frame) {
   return true;
 }
 
-// The transform along the rows fits 32 bits, that along the columns a double.
-void transform_block(ImageView<const std::uint16_t> block, std::array<float, kSide * kSide>& out) {
-  std::array<std::array<double, kSide>, kSide> columns;  // [u][y]
-  for (int y = 0; y < kSide; ++y) {
-    std::array<std::int32_t, kSide> values;
-    std::copy_n(block.row(y), kSide, values.begin());
-    const auto along_row = transform(values);
-    for (std::size_t u = 0; u < kSide; ++u) {
-      columns[u][static_cast<std::size_t>(y)] = along_row[u];
-    }
-  }
-  constexpr double kScale = 1.0 / (1 << (2 * kScaleBits));
-  for (std::size_t u = 0; u < kSide; ++u) {
-    const auto along_column = transform(columns[u]);
-    for (std::size_t v = 0; v < kSide; ++v) {
-      out[v * kSide + u] = static_cast<float>(along_column[v] * kScale);
-    }
-  }
-}
-
 }  // namespace
 
 void NoiseModelEstimator::measure(ImageView<const std::uint16_t> frame,
                                   ImageView<const std::uint8_t> valid, double pixel_sigma_counts,
                                   NoiseModel& model) {
-  model.set_white(pixel_sigma_counts);
+  if (!find(frame, valid, model)) {
+    model.set_white(pixel_sigma_counts);
+  }
+}
+
+bool NoiseModelEstimator::find(ImageView<const std::uint16_t> frame,
+                               ImageView<const std::uint8_t> valid, NoiseModel& model) {
+  model.set_white(0);
   if (std::min(frame.width(), frame.height()) < kSide) {
-    return;
+    return false;
   }
   model.map.reserve(frame.width(), frame.height());
   transform_blocks(frame, valid);
   if (coefficients_.size() < tuning_.fewest_blocks) {
-    return;
+    return false;
   }
   find_spectrum(model);
   if (model.level_counts > 0) {
     find_map(frame.width(), frame.height(), model);
   }
+  return true;
 }
 
 void NoiseModelEstimator::transform_blocks(ImageView<const std::uint16_t> frame,
@@ -184,7 +138,7 @@ void NoiseModelEstimator::transform_blocks(ImageView<const std::uint16_t> frame,
         continue;
       }
       usable_.push_back(static_cast<std::int32_t>(coefficients_.size()));
-      transform_block(block, coefficients_.emplace_back());
+      detail::noise_block(block.data(), block.stride(), coefficients_.emplace_back());
       energies_.push_back(sum_over_frequencies(kSide - 1, [&](int u, int v) {
         const float value = coefficients_.back()[index_of(u, v)];
         return value * value;

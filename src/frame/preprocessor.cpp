@@ -28,11 +28,10 @@ ImageView<const std::uint16_t> Preprocessor::run(const Frame& frame, ParallelRun
   load(frame, corrections);
   note_validity(frame, corrections.invalid);
   fill_invalid(corrections.invalid);
-  corrections.noise = noise_estimator_.measure(corrected_);
+  measure_noise(runner, corrections);
   corrections.bad_pixels.clear();
   corrections.stripes.columns.clear();
   corrections.stripes.rows.clear();
-  measure_model(corrections);
   const double sigma_counts = corrections.noise_model.level_counts;
   if (bad_pixel_options_.replace) {
     replace_bad_pixels(corrected_, sigma_counts, bad_pixel_options_, corrections.bad_pixels);
@@ -44,12 +43,18 @@ ImageView<const std::uint16_t> Preprocessor::run(const Frame& frame, ParallelRun
   return corrected_;
 }
 
-void Preprocessor::measure_model(Corrections& corrections) {
-  const double pixels = corrections.noise.sigma_counts;
-  if (model_noise_) {
-    model_estimator_.measure(corrected_, valid_view_, pixels, corrections.noise_model);
-  } else {
-    corrections.noise_model.set_white(pixels);
+// That of the pixels and its model, side by side.
+void Preprocessor::measure_noise(ParallelRunner& runner, Corrections& corrections) {
+  bool is_found = false;
+  runner.run(model_noise_ ? 2 : 1, [&](int task) {
+    if (task == 0) {
+      corrections.noise = noise_estimator_.measure(corrected_);
+    } else {
+      is_found = model_estimator_.find(corrected_, valid_view_, corrections.noise_model);
+    }
+  });
+  if (!is_found) {
+    corrections.noise_model.set_white(corrections.noise.sigma_counts);
   }
 }
 

@@ -18,6 +18,8 @@ void set_robust(DetectorOptions& options) {
   options.denoise.method = DenoiseMethod::kBm3d;
   options.denoise.sigma_scale = 1.2;
   options.denoise.detrend = true;
+  // More blocks give a better picture, and edges that are no better.
+  options.denoise.bm3d.profile = Bm3dProfile::kFastest;
   options.denoise.bm3d.adjacent_blocks = false;
   options.denoise.bm3d.keep_slopes = true;
   options.denoise.bilateral.range_sigmas = 0.2;

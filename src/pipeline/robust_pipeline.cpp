@@ -27,10 +27,10 @@ Status RobustPipeline::detect(const Frame& frame, const Call& call, Detection& f
   THERMEDGE_TRY(clock.lap("corners", corner_finder_.run(linked_.contours, corners_)));
   THERMEDGE_TRY(clock.lap(
       "scores", scorer_.run(linked_, corners_, pixels_.suppressed_response, found.edges)));
-  test_edges(found);
+  test_edges(call.runner, found);
   THERMEDGE_TRY(clock.lap("significance", {}));
   refine_positions(pixels_.response, pixels_.kernel, found.sigma_counts / noise_.unit_counts,
-                   found.edges);
+                   found.edges, call.runner);
   THERMEDGE_TRY(clock.lap("positions", {}));
   THERMEDGE_TRY(clock.lap("selection", select(found)));
   mark_cut_ends(preprocessor_.valid(), found.edges);
@@ -146,11 +146,12 @@ ImageView<const float> RobustPipeline::even_out(const NoiseLevelMap& map) {
   if (map.is_even()) {
     return denoised_;
   }
-  double sum = 0;
+  std::uint64_t sum = 0;
   for (int y = 0; y < counts_.height(); ++y) {
-    sum += std::accumulate(counts_.row(y), counts_.row(y) + counts_.width(), 0.0);
+    sum += std::accumulate(counts_.row(y), counts_.row(y) + counts_.width(), std::uint32_t{0});
   }
-  const auto mean = static_cast<float>(sum / static_cast<double>(counts_.size()));
+  const auto mean =
+      static_cast<float>(static_cast<double>(sum) / static_cast<double>(counts_.size()));
   map.even_out(denoised_, mean, mean, evened_);
   return evened_;
 }
@@ -188,8 +189,9 @@ Status RobustPipeline::close_gaps() {
 }
 
 // On the counts before denoising: a denoiser can invent an edge, the frame itself confirms it.
-void RobustPipeline::test_edges(Detection& found) {
-  significance_.run(counts_, noise_to_mind(found), preprocessor_.valid(), pixels_, found.edges);
+void RobustPipeline::test_edges(ParallelRunner& runner, Detection& found) {
+  significance_.run(counts_, noise_to_mind(found), preprocessor_.valid(), pixels_, found.edges,
+                    runner);
 }
 
 Status RobustPipeline::select(Detection& found) {

@@ -75,7 +75,7 @@ class RobustPipeline final : public Pipeline {
   Status find_edge_pixels(ParallelRunner& runner, Detection& found);
   [[nodiscard]] ImageView<const std::uint8_t> find_clear();
   Status close_gaps();
-  void test_edges(Detection& found);
+  void test_edges(ParallelRunner& runner, Detection& found);
   Status select(Detection& found);
   Status keep_intermediates(int bits, Intermediates* out);
 

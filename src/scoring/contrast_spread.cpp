@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <span>
 
@@ -30,7 +31,39 @@ int nearest(double value) {
   return static_cast<int>(value + (kOffset + 0.5)) - kOffset;
 }
 
+// Pixels of a line, counted from its middle.
+struct Span {
+  // Leaves out most of those at which `start` + (i + 0.5) * step is no place of a row of `length`
+  // pixels, and none other.
+  void clip(double start, double step, int length) {
+    const double first = -start;
+    const double last = length - 1 - start;
+    if (step == 0) {
+      end = first <= 0.5 && last >= -0.5 ? end : begin;
+      return;
+    }
+    const auto [low, high] = std::minmax({first / step, last / step});
+    const auto within = [&](double at) { return std::clamp(at, -1.0 * kFar, 1.0 * kFar); };
+    begin = std::max(begin, static_cast<int>(std::floor(within(low))) - kSpare);
+    end = std::max(begin, std::min(end, static_cast<int>(std::ceil(within(high))) + kSpare));
+  }
+
+  static constexpr int kFar = 1 << 20;
+  static constexpr int kSpare = 3;  // for rounding, and a pixel outside behind the last one inside
+  int begin = 0;
+  int end = 0;
+};
+
 }  // namespace
+
+constexpr double kHalfRoot3 = std::numbers::sqrt3 / 2;
+const std::array<ContrastSpread::Direction, 6> ContrastSpread::kDirections = {
+    {{{1, 0}, kAlongColumns},
+     {{0, 1}, kAlongRows},
+     {{0.5, kHalfRoot3}, kOblique},
+     {{kHalfRoot3, 0.5}, kOblique},
+     {{-0.5, kHalfRoot3}, kOblique},
+     {{-kHalfRoot3, 0.5}, kOblique}}};
 
 ContrastSpread::ContrastSpread(const ContrastSpreadTuning& tuning, const SideSlopeTuning& slopes,
                                const ContrastTuning& contrast)
@@ -55,35 +88,53 @@ int ContrastSpread::steps() const {
   return static_cast<int>(contrast_.farthest_px - contrast_.nearest_px) + 1;
 }
 
+int ContrastSpread::step_of_lines(Course course) const {
+  return course == kOblique ? tuning_.oblique_step_px : tuning_.line_step_px;
+}
+
+std::size_t ContrastSpread::Lines::memory_bytes() const {
+  std::size_t sum = memory_of(line.x, line.y, line.nx, line.ny, contrasts, sums);
+  for (const std::vector<float>& list : samples) {
+    sum += memory_of(list);
+  }
+  return sum;
+}
+
 void ContrastSpread::prepare(int width, int height) {
   width_ = width;
   height_ = height;
   const int reach = (width + height) / 2;
   const auto longest = static_cast<std::size_t>(2 * reach + 1);
-  line_.reserve(longest);
-  contrasts_.reserve(longest);
-  sums_.reserve(longest + 1);
-  for (const Course course : {kAlongColumns, kAlongRows, kOblique}) {
-    const int step = course == kOblique ? tuning_.oblique_step_px : tuning_.line_step_px;
-    const int directions = course == kOblique ? 4 : 1;
-    const auto lines = static_cast<std::size_t>(directions * (2 * (reach / step) + 1));
+  for (std::size_t i = 0; i < lines_.size(); ++i) {
+    const Course course = kDirections[i].course;
+    lines_[i].line.reserve(longest);
+    lines_[i].contrasts.reserve(longest);
+    lines_[i].sums.reserve(longest + 1);
+    // The samples of all oblique lines come together in the first list.
+    const int directions = i == kOblique ? static_cast<int>(kDirections.size()) - kOblique : 1;
+    const auto lines =
+        static_cast<std::size_t>(directions * (2 * (reach / step_of_lines(course)) + 1));
     for (std::size_t length = 0; length < kLengths; ++length) {
-      samples(course, length).reserve(lines * longest / (kShortest << length));
+      lines_[i].samples[length].reserve(lines * longest / (kShortest << length));
     }
   }
 }
 
 void ContrastSpread::measure(ImageView<const std::uint16_t> frame,
-                             ImageView<const std::uint8_t> busy, const NoiseModel& noise) {
-  for (std::vector<float>& list : samples_) {
-    list.clear();
-  }
-  lay_lines(frame, busy, noise, {1, 0}, kAlongColumns);
-  lay_lines(frame, busy, noise, {0, 1}, kAlongRows);
-  constexpr double kHalfRoot3 = std::numbers::sqrt3 / 2;
-  for (const Normal normal : {Normal{0.5, kHalfRoot3}, Normal{kHalfRoot3, 0.5},
-                              Normal{-0.5, kHalfRoot3}, Normal{-kHalfRoot3, 0.5}}) {
-    lay_lines(frame, busy, noise, normal, kOblique);
+                             ImageView<const std::uint8_t> busy, const NoiseModel& noise,
+                             ParallelRunner& runner) {
+  runner.run(static_cast<int>(kDirections.size()), [&](int task) {
+    const auto i = static_cast<std::size_t>(task);
+    for (std::vector<float>& list : lines_[i].samples) {
+      list.clear();
+    }
+    lay_lines({frame, busy, noise}, kDirections[i], lines_[i]);
+  });
+  for (std::size_t i = kOblique + 1; i < lines_.size(); ++i) {
+    for (std::size_t length = 0; length < kLengths; ++length) {
+      const std::vector<float>& list = lines_[i].samples[length];
+      std::copy(list.begin(), list.end(), std::back_inserter(lines_[kOblique].samples[length]));
+    }
   }
   for (const Course course : {kAlongColumns, kAlongRows, kOblique}) {
     find_variances(course);
@@ -93,43 +144,57 @@ void ContrastSpread::measure(ImageView<const std::uint16_t> frame,
 // Parallel lines on both sides of the middle of the frame, cut where they leave what can be
 // measured. Pixels are counted from the middle, as many each way, so that a mirrored frame of even
 // sides has the mirrored lines and pieces.
-void ContrastSpread::lay_lines(ImageView<const std::uint16_t> frame,
-                               ImageView<const std::uint8_t> busy, const NoiseModel& noise,
-                               Normal normal, Course course) {
+void ContrastSpread::lay_lines(const Frame& frame, const Direction& direction, Lines& lines) const {
+  const int width = frame.counts.width();
+  const int height = frame.counts.height();
+  const Normal normal = direction.normal;
   const int margin = static_cast<int>(std::ceil(slopes_.chord_to_px)) + 1;
-  const int step = course == kOblique ? tuning_.oblique_step_px : tuning_.line_step_px;
-  const double middle_x = (frame.width() - 1) / 2.0;
-  const double middle_y = (frame.height() - 1) / 2.0;
-  const int reach = (frame.width() + frame.height()) / 2;  // of the longest line, and the last one
+  const int step = step_of_lines(direction.course);
+  const double middle_x = (width - 1) / 2.0;
+  const double middle_y = (height - 1) / 2.0;
+  const int reach = (width + height) / 2;  // of the longest line, and the last one
   for (int k = -reach / step; k < reach / step; ++k) {
     const double aside = (k + 0.5) * step;
-    for (int i = -reach; i < reach; ++i) {
+    const double x0 = middle_x + aside * normal.x;
+    const double y0 = middle_y + aside * normal.y;
+    // Where it may be in the frame; beyond, it is not looked at.
+    Span on_line{-reach, reach};
+    on_line.clip(x0, -normal.y, width);
+    on_line.clip(y0, normal.x, height);
+    for (int i = on_line.begin; i < on_line.end; ++i) {
       const double on = i + 0.5;
-      const int x = nearest(middle_x + aside * normal.x - on * normal.y);
-      const int y = nearest(middle_y + aside * normal.y + on * normal.x);
-      if (x >= margin && y >= margin && x < frame.width() - margin && y < frame.height() - margin &&
-          busy(x, y) == 0) {
-        line_.x.push_back(static_cast<float>(x));
-        line_.y.push_back(static_cast<float>(y));
-      } else if (!line_.x.empty()) {
-        measure_line(frame, noise, normal, course, i);
+      const int x = nearest(x0 - on * normal.y);
+      const int y = nearest(y0 + on * normal.x);
+      if (x >= margin && y >= margin && x < width - margin && y < height - margin &&
+          frame.busy(x, y) == 0) {
+        lines.line.x.push_back(static_cast<float>(x));
+        lines.line.y.push_back(static_cast<float>(y));
+      } else if (!lines.line.x.empty()) {
+        measure_line(frame, direction, i, lines);
       }
     }
-    measure_line(frame, noise, normal, course, reach);
+    measure_line(frame, direction, on_line.end, lines);
   }
 }
 
 // Takes the contrasts of the pieces of the line, which ends before pixel `end`, and empties it.
 // Pieces begin at multiples of their length.
-void ContrastSpread::measure_line(ImageView<const std::uint16_t> frame, const NoiseModel& noise,
-                                  Normal normal, Course course, int end) {
-  const auto edgels = static_cast<int>(line_.x.size());
+void ContrastSpread::measure_line(const Frame& frame, const Direction& direction, int end,
+                                  Lines& lines) const {
+  const Edgels& line = lines.line;
+  const auto edgels = static_cast<int>(line.x.size());
   if (edgels >= static_cast<int>(kShortest)) {
-    course == kOblique ? take_contrasts(frame, normal) : take_contrasts_on_axis(frame, course);
-    sums_.assign(1, 0);
-    for (std::size_t i = 0; i < line_.x.size(); ++i) {
-      const double level = noise.map.at(static_cast<int>(line_.x[i]), static_cast<int>(line_.y[i]));
-      sums_.push_back(sums_.back() + contrasts_[i] / (noise.level_counts * level));
+    if (direction.course == kOblique) {
+      take_contrasts(frame, direction.normal, lines);
+    } else {
+      take_contrasts_on_axis(frame, direction.course, lines);
+    }
+    std::vector<double>& sums = lines.sums;
+    sums.assign(1, 0);
+    for (std::size_t i = 0; i < line.x.size(); ++i) {
+      const double level =
+          frame.noise.map.at(static_cast<int>(line.x[i]), static_cast<int>(line.y[i]));
+      sums.push_back(sums.back() + lines.contrasts[i] / (frame.noise.level_counts * level));
     }
     const int begin = end - edgels;
     for (std::size_t length = 0; length < kLengths; ++length) {
@@ -138,51 +203,53 @@ void ContrastSpread::measure_line(ImageView<const std::uint16_t> frame, const No
       const int first = from_multiple == 0 ? 0 : size - from_multiple;
       for (int i = first; i + size <= edgels; i += size) {
         const double sum =
-            sums_[static_cast<std::size_t>(i + size)] - sums_[static_cast<std::size_t>(i)];
-        samples(course, length).push_back(static_cast<float>(std::abs(sum) / size));
+            sums[static_cast<std::size_t>(i + size)] - sums[static_cast<std::size_t>(i)];
+        lines.samples[length].push_back(static_cast<float>(std::abs(sum) / size));
       }
     }
   }
-  line_.x.clear();
-  line_.y.clear();
+  lines.line.x.clear();
+  lines.line.y.clear();
 }
 
 // Interpolating between pixels of a column or row is the same for all its points.
-void ContrastSpread::take_contrasts_on_axis(ImageView<const std::uint16_t> frame, Course course) {
-  const std::ptrdiff_t step = course == kAlongColumns ? 1 : frame.stride();
-  contrasts_.assign(line_.x.size(), 0);
+void ContrastSpread::take_contrasts_on_axis(const Frame& frame, Course course, Lines& lines) const {
+  const Edgels& line = lines.line;
+  const std::ptrdiff_t step = course == kAlongColumns ? 1 : frame.counts.stride();
+  lines.contrasts.assign(line.x.size(), 0);
   for (std::size_t distance = 0; distance < weights_.size(); ++distance) {
     if (weights_[distance] == 0) {
       continue;
     }
     const auto away = static_cast<std::ptrdiff_t>(distance) * step;
-    for (std::size_t i = 0; i < contrasts_.size(); ++i) {
+    for (std::size_t i = 0; i < lines.contrasts.size(); ++i) {
       const std::uint16_t* at =
-          frame.row(static_cast<int>(line_.y[i])) + static_cast<int>(line_.x[i]);
-      contrasts_[i] += weights_[distance] * (at[away] - at[-away]);
+          frame.counts.row(static_cast<int>(line.y[i])) + static_cast<int>(line.x[i]);
+      lines.contrasts[i] += weights_[distance] * (at[away] - at[-away]);
     }
   }
 }
 
-void ContrastSpread::take_contrasts(ImageView<const std::uint16_t> frame, Normal normal) {
-  const std::size_t edgels = line_.x.size();
-  line_.nx.assign(edgels, static_cast<float>(normal.x));
-  line_.ny.assign(edgels, static_cast<float>(normal.y));
-  contrasts_.assign(edgels, 0);
+void ContrastSpread::take_contrasts(const Frame& frame, Normal normal, Lines& lines) const {
+  Edgels& line = lines.line;
+  const std::size_t edgels = line.x.size();
+  line.nx.assign(edgels, static_cast<float>(normal.x));
+  line.ny.assign(edgels, static_cast<float>(normal.y));
+  lines.contrasts.assign(edgels, 0);
   for_each_run({0, static_cast<std::uint32_t>(edgels)}, [&](std::size_t first, std::size_t count) {
     RunOfDoubles part;
     const auto add = [&](double weight) {
       for (std::size_t i = 0; i < count; ++i) {
-        contrasts_[first + i] += weight * part[i];
+        lines.contrasts[first + i] += weight * part[i];
       }
     };
     for (int k = 0; k < steps(); ++k) {
-      differences(frame, line_, first, count, contrast_.nearest_px + k, part);
+      differences(frame.counts, line, first, count, contrast_.nearest_px + k, part);
       add(1.0 / steps());
     }
     for (const double side : {1.0, -1.0}) {
-      slopes_beside(frame, line_, first, count, {side, slopes_.chord_from_px, slopes_.chord_to_px},
-                    part);
+      slopes_beside(frame.counts, line, first, count,
+                    {side, slopes_.chord_from_px, slopes_.chord_to_px}, part);
       add(-0.5);
     }
   });
@@ -194,7 +261,7 @@ void ContrastSpread::find_variances(Course course) {
   double before = tuning_.white_variance;
   double growth = 1;
   for (std::size_t length = 0; length < kLengths; ++length) {
-    std::vector<float>& list = samples(course, length);
+    std::vector<float>& list = lines_[course].samples[length];
     if (list.size() >= tuning_.fewest) {
       const auto rank =
           static_cast<std::size_t>(tuning_.quantile * static_cast<double>(list.size()));

@@ -10,6 +10,7 @@
 #include "thermedge/image.hpp"
 #include "thermedge/memory.hpp"
 #include "thermedge/noise_model.hpp"
+#include "thermedge/parallel_runner.hpp"
 #include "thermedge/stages/significance.hpp"
 
 namespace thermedge::detail {
@@ -28,15 +29,13 @@ class ContrastSpread {
 
   // `busy`: nonzero where sure edges are near. `noise` has a level above 0.
   void measure(ImageView<const std::uint16_t> frame, ImageView<const std::uint8_t> busy,
-               const NoiseModel& noise);
+               const NoiseModel& noise, ParallelRunner& runner);
 
   // Variance of the mean contrast less its slope along a curve, in units of the square of the
   // noise's level where the map is 1. The curve's edgels have normals.
   [[nodiscard]] double variance(const Edgels& edgels, Range range, const NoiseLevelMap& map) const;
 
-  [[nodiscard]] std::size_t memory_bytes() const {
-    return memory_of(line_.x, line_.y, line_.nx, line_.ny, weights_, contrasts_, sums_, samples_);
-  }
+  [[nodiscard]] std::size_t memory_bytes() const { return memory_of(weights_, lines_); }
 
  private:
   static constexpr std::size_t kLengths = 5;  // 8, 16, 32, 64, 128 edgels
@@ -47,21 +46,37 @@ class ContrastSpread {
     double x = 0;
     double y = 0;
   };
+  struct Direction {
+    Normal normal;
+    Course course;
+  };
+  static const std::array<Direction, 6> kDirections;  // the oblique ones are the last
 
-  void lay_lines(ImageView<const std::uint16_t> frame, ImageView<const std::uint8_t> busy,
-                 const NoiseModel& noise, Normal normal, Course course);
-  void measure_line(ImageView<const std::uint16_t> frame, const NoiseModel& noise, Normal normal,
-                    Course course, int end);
-  // Fill contrasts_ with those along the line, less the slope, counts.
-  void take_contrasts_on_axis(ImageView<const std::uint16_t> frame, Course course);
-  void take_contrasts(ImageView<const std::uint16_t> frame, Normal normal);
+  // Of the lines of one direction, which are laid by one task.
+  struct Lines {
+    Edgels line;
+    std::vector<double> contrasts;
+    std::vector<double> sums;  // of them along the line, in units of the noise there
+    std::array<std::vector<float>, kLengths> samples;
+
+    [[nodiscard]] std::size_t memory_bytes() const;
+  };
+  struct Frame {
+    ImageView<const std::uint16_t> counts;
+    ImageView<const std::uint8_t> busy;
+    const NoiseModel& noise;
+  };
+
+  void lay_lines(const Frame& frame, const Direction& direction, Lines& lines) const;
+  void measure_line(const Frame& frame, const Direction& direction, int end, Lines& lines) const;
+  // Fill contrasts with those along the line, less the slope, counts.
+  void take_contrasts_on_axis(const Frame& frame, Course course, Lines& lines) const;
+  void take_contrasts(const Frame& frame, Normal normal, Lines& lines) const;
   void find_variances(Course course);
   [[nodiscard]] int steps() const;  // of the contrast
+  [[nodiscard]] int step_of_lines(Course course) const;
   [[nodiscard]] double at(std::size_t course, double edgels) const;
   [[nodiscard]] double level_at(const NoiseLevelMap& map, int x, int y) const;
-  [[nodiscard]] std::vector<float>& samples(std::size_t course, std::size_t length) {
-    return samples_[course * kLengths + length];
-  }
 
   ContrastSpreadTuning tuning_;
   SideSlopeTuning slopes_;
@@ -69,10 +84,7 @@ class ContrastSpread {
   std::vector<double> weights_;  // along an axis: of the differences between pixels this far away
   int width_ = 0;                // of the frame
   int height_ = 0;
-  Edgels line_;
-  std::vector<double> contrasts_;
-  std::vector<double> sums_;  // of them along the line, in units of the noise there
-  std::vector<std::vector<float>> samples_ = std::vector<std::vector<float>>(kCourses * kLengths);
+  std::vector<Lines> lines_ = std::vector<Lines>(kDirections.size());
   std::array<std::array<double, kLengths>, kCourses> variances_{};
 };
 

@@ -6,12 +6,16 @@
 #include <iterator>
 #include <limits>
 #include <numbers>
+#include <numeric>
 #include <span>
 #include <vector>
 
 #include "contrast_spread.hpp"
 #include "edgel_contrast.hpp"
+#include "hysteresis.hpp"
 #include "order_statistics.hpp"
+#include "sort_simd.hpp"
+#include "suppression_simd.hpp"
 #include "thermedge/memory.hpp"
 #include "thermedge/stages/scoring.hpp"
 
@@ -45,13 +49,18 @@ double trimmed_mean(std::vector<double>& values, double share) {
   if (values.empty()) {
     return 0;
   }
-  std::sort(values.begin(), values.end());
   const auto cut = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size()));
-  double sum = 0;
-  for (auto value = values.begin() + cut; value != values.end() - cut; ++value) {
-    sum += *value;
+  const auto begin = values.begin() + cut;
+  const auto end = values.end() - cut;
+  if (values.size() <= detail::kFewValues) {
+    detail::sort_few(values);
+  } else {  // what is left out needs no order
+    std::nth_element(values.begin(), begin, values.end());
+    std::nth_element(begin, end, values.end());
+    detail::sort_values({begin, end});
   }
-  return sum / static_cast<double>(static_cast<std::ptrdiff_t>(values.size()) - 2 * cut);
+  // In their order, so that it makes no difference from which end the edge is walked.
+  return std::accumulate(begin, end, 0.0) / static_cast<double>(end - begin);
 }
 
 // Root mean square of the map's levels along an edge.
@@ -89,11 +98,14 @@ struct SignificanceTest::Impl {
   void mark_busy(const OrientedFilterResult& pixels, ImageView<const std::uint8_t> valid);
   void orient(const OrientedFilterResult& pixels, const Edge& edge, Edgels& edgels) const;
   detail::Contrast contrast_of(ImageView<const std::uint16_t> frame, const Edgels& edgels,
-                               Range range);
+                               Range range, std::vector<double>& of_edgels) const;
   SideSlopes slopes(ImageView<const std::uint16_t> frame, const Edgels& edgels, Range range,
-                    double side);
+                    double side, std::vector<double>& of_edgels) const;
   double explained(ImageView<const std::uint16_t> frame, const Edgels& edgels, Range range,
-                   double level, double contrast);
+                   double level, double contrast, std::vector<double>& of_edgels) const;
+  void test_edge(ImageView<const std::uint16_t> frame, const NoiseModel& noise,
+                 const OrientedFilterResult& pixels, std::vector<double>& of_edgels, Edgels& edgels,
+                 Edge& edge) const;
   [[nodiscard]] double z_of_edge(const NoiseModel& noise, const Edgels& edgels, const Edge& edge,
                                  const Step& step) const;
   [[nodiscard]] Evidence evidence_for(const Edge& edge) const;
@@ -101,22 +113,33 @@ struct SignificanceTest::Impl {
 
   SignificanceTuning tuning;
   detail::ContrastSpread spread;
-  Image<float> strongest_in_row;
+  std::vector<float> of_scene;    // responses of a row, with a margin of clearance_px
+  Image<float> strongest_in_row;  // with clearance_px rows of zeros above and below
   Image<float> strongest;
   std::vector<float> responses;
   Image<std::uint8_t> busy;
-  std::vector<double> of_edgels;
+  // Each task takes every so many-th edge; their values for the edgels of one edge.
+  std::array<std::vector<double>, 4> scratch;
   std::vector<Evidence> evidence;  // for each edge
   std::array<Vector, kEdgeDirections> along = directions();
 };
 
 void SignificanceTest::Impl::prepare(int width, int height, const EdgeSet& edges) {
   spread.prepare(width, height);
-  strongest_in_row.resize(width, height);
+  const int reach = tuning.spread.clearance_px;
+  constexpr int kVector = Image<float>::kAlignmentBytes / int{sizeof(float)};
+  of_scene.resize(static_cast<std::size_t>(width + 2 * reach + kVector));
+  strongest_in_row.resize(width, height + 2 * reach);
+  for (int i = 0; i < reach; ++i) {
+    std::fill_n(strongest_in_row.row(i), width, 0.0F);
+    std::fill_n(strongest_in_row.row(height + 2 * reach - 1 - i), width, 0.0F);
+  }
   strongest.resize(width, height);
   responses.reserve(strongest.size());
   busy.resize(width, height);
-  of_edgels.reserve(edges.edgels.x.capacity());
+  for (std::vector<double>& values : scratch) {
+    values.reserve(edges.edgels.x.capacity());
+  }
   evidence.reserve(edges.edges.capacity());
 }
 
@@ -127,46 +150,47 @@ void SignificanceTest::Impl::find_strongest(const OrientedFilterResult& pixels,
   const int width = pixels.edges.width();
   const int height = pixels.edges.height();
   const int reach = tuning.spread.clearance_px;
+  const int taps = 2 * reach + 1;
   const auto sure = static_cast<float>(tuning.spread.sure_response);
   for (int y = 0; y < height; ++y) {
-    float* row = strongest_in_row.row(y);
-    std::fill_n(row, width, 0.0F);
-    for (int x = 0; x < width; ++x) {
-      const bool is_valid = valid.empty() || valid(x, y) != 0;
-      const float response = !is_valid                 ? std::numeric_limits<float>::infinity()
-                             : pixels.edges(x, y) != 0 ? pixels.suppressed_response(x, y)
-                                                       : 0;
-      if (response > sure) {
-        float* const end = row + std::min(x + reach + 1, width);
-        std::transform(row + std::max(x - reach, 0), end, row + std::max(x - reach, 0),
-                       [=](float other) { return std::max(other, response); });
-      }
+    float* row = of_scene.data() + reach;
+    std::fill(of_scene.begin(), of_scene.end(), 0.0F);
+    const std::uint8_t* const edges = pixels.edges.row(y);
+    const std::uint8_t* const end = edges + width;
+    const std::uint8_t* at = edges;
+    while ((at = detail::find_pixel(at, end, detail::kKeptEdge)) != end) {
+      const float response = pixels.suppressed_response(static_cast<int>(at - edges), y);
+      row[at++ - edges] = response > sure ? response : 0;
     }
+    if (!valid.empty()) {
+      std::transform(row, row + width, valid.row(y), row,
+                     [](float response, std::uint8_t is_valid) {
+                       return is_valid != 0 ? response : std::numeric_limits<float>::infinity();
+                     });
+    }
+    detail::largest_row(of_scene.data(), 1, taps, width, strongest_in_row.row(y + reach));
   }
   for (int y = 0; y < height; ++y) {
-    float* row = strongest.row(y);
-    std::fill_n(row, width, 0.0F);
-    for (int v = std::max(y - reach, 0); v <= std::min(y + reach, height - 1); ++v) {
-      std::transform(row, row + width, strongest_in_row.row(v), row,
-                     [](float one, float other) { return std::max(one, other); });
-    }
+    detail::largest_row(strongest_in_row.row(y), strongest_in_row.stride(), taps, width,
+                        strongest.row(y));
   }
 }
 
 // What the response of an edge of the scene exceeds. More than usual where such responses are all
 // over the frame: they are a pattern of the sensor then, or a texture.
 float SignificanceTest::Impl::response_of_scene() {
-  const auto usual = static_cast<float>(tuning.spread.sure_response);
-  responses.clear();
+  responses.clear();  // those near edges
+  std::size_t free = 0;
   for (int y = 0; y < strongest.height(); ++y) {
-    std::copy_if(strongest.row(y), strongest.row(y) + strongest.width(),
-                 std::back_inserter(responses),
-                 [](float response) { return std::isfinite(response); });
+    const float* const row = strongest.row(y);
+    std::copy_if(row, row + strongest.width(), std::back_inserter(responses),
+                 [](float response) { return response > 0 && std::isfinite(response); });
+    free += static_cast<std::size_t>(std::count(row, row + strongest.width(), 0.0F));
   }
-  const auto free = static_cast<std::size_t>(std::count(responses.begin(), responses.end(), 0.0F));
   const auto rank = static_cast<std::size_t>(tuning.spread.least_measured *
-                                             static_cast<double>(responses.size()));
-  return free > rank || responses.empty() ? usual : detail::nth_value(std::span(responses), rank);
+                                             static_cast<double>(free + responses.size()));
+  return free > rank || responses.empty() ? static_cast<float>(tuning.spread.sure_response)
+                                          : detail::nth_value(std::span(responses), rank - free);
 }
 
 void SignificanceTest::Impl::mark_busy(const OrientedFilterResult& pixels,
@@ -194,7 +218,8 @@ void SignificanceTest::Impl::orient(const OrientedFilterResult& pixels, const Ed
 
 // Where an edge begins or ends at another one, the contrast is that of the other one.
 detail::Contrast SignificanceTest::Impl::contrast_of(ImageView<const std::uint16_t> frame,
-                                                     const Edgels& edgels, Range range) {
+                                                     const Edgels& edgels, Range range,
+                                                     std::vector<double>& of_edgels) const {
   of_edgels.clear();
   detail::Contrast found;
   detail::for_each_run(range, [&](std::size_t first, std::size_t count) {
@@ -212,7 +237,8 @@ detail::Contrast SignificanceTest::Impl::contrast_of(ImageView<const std::uint16
 }
 
 SideSlopes SignificanceTest::Impl::slopes(ImageView<const std::uint16_t> frame,
-                                          const Edgels& edgels, Range range, double side) {
+                                          const Edgels& edgels, Range range, double side,
+                                          std::vector<double>& of_edgels) const {
   const SideSlopeTuning& own = tuning.slopes;
   const auto mean_over = [&](double from_px, double to_px) {
     of_edgels.clear();
@@ -234,10 +260,11 @@ SideSlopes SignificanceTest::Impl::slopes(ImageView<const std::uint16_t> frame,
 
 // The part of a contrast that slopes of the scene explain, counts.
 double SignificanceTest::Impl::explained(ImageView<const std::uint16_t> frame, const Edgels& edgels,
-                                         Range range, double level, double contrast) {
+                                         Range range, double level, double contrast,
+                                         std::vector<double>& of_edgels) const {
   const SideSlopeTuning& own = tuning.slopes;
-  SideSlopes ahead = slopes(frame, edgels, range, 1);
-  SideSlopes behind = slopes(frame, edgels, range, -1);
+  SideSlopes ahead = slopes(frame, edgels, range, 1, of_edgels);
+  SideSlopes behind = slopes(frame, edgels, range, -1, of_edgels);
   // Beside the border of the frame the slope is taken to go on as it does on the other side.
   if (!ahead.are_measured || !behind.are_measured) {
     (ahead.are_measured ? behind : ahead) = ahead.are_measured ? ahead : behind;
@@ -261,6 +288,27 @@ double SignificanceTest::Impl::z_of_edge(const NoiseModel& noise, const Edgels& 
       std::min(step.slope / (noise.level_counts * std::sqrt(variance * of_slope)), 1.0);
   return step.counts /
          (noise.level_counts * std::sqrt(variance * (1 - of_slope + share * of_slope)));
+}
+
+void SignificanceTest::Impl::test_edge(ImageView<const std::uint16_t> frame,
+                                       const NoiseModel& noise, const OrientedFilterResult& pixels,
+                                       std::vector<double>& of_edgels, Edgels& edgels,
+                                       Edge& edge) const {
+  detail::set_normals(edgels, edge);
+  orient(pixels, edge, edgels);
+  detail::Contrast contrast = contrast_of(frame, edgels, edge.edgels, of_edgels);
+  detail::take_contrast(frame, noise.level_counts, edgels, edge, contrast);
+  edge.contrast_sigmas = detail::in_sigmas(
+      edge.contrast_counts, noise.level_counts * level_along(noise.map, edgels, edge.edgels));
+  const double slope =
+      explained(frame, edgels, edge.edgels, noise.level_counts, contrast.counts, of_edgels);
+  contrast.counts = std::max(contrast.counts - slope, 0.0);
+  if (noise.level_counts > 0) {
+    edge.z = z_of_edge(noise, edgels, edge, {contrast.counts, slope});
+  } else {
+    edge.z = detail::z_of(contrast, 0);
+    edge.log10_nfa = detail::log10_tail(edge.z);
+  }
 }
 
 Evidence SignificanceTest::Impl::evidence_for(const Edge& edge) const {
@@ -324,38 +372,32 @@ SignificanceTest& SignificanceTest::operator=(SignificanceTest&&) noexcept = def
 SignificanceTest::~SignificanceTest() = default;
 
 std::size_t SignificanceTest::memory_bytes() const {
-  return detail::memory_of(impl_->spread, impl_->strongest_in_row, impl_->strongest,
-                           impl_->responses, impl_->busy, impl_->of_edgels, impl_->evidence);
+  std::size_t sum =
+      detail::memory_of(impl_->spread, impl_->of_scene, impl_->strongest_in_row, impl_->strongest,
+                        impl_->responses, impl_->busy, impl_->evidence);
+  for (const std::vector<double>& values : impl_->scratch) {
+    sum += detail::memory_of(values);
+  }
+  return sum;
 }
 
 void SignificanceTest::run(ImageView<const std::uint16_t> frame, const NoiseModel& noise,
                            ImageView<const std::uint8_t> valid, const OrientedFilterResult& pixels,
-                           EdgeSet& edges) {
+                           EdgeSet& edges, ParallelRunner& runner) {
   Impl& self = *impl_;
   const bool is_noisy = noise.level_counts > 0;
   self.prepare(frame.width(), frame.height(), edges);
   if (is_noisy) {
     self.mark_busy(pixels, valid);
-    self.spread.measure(frame, self.busy, noise);
+    self.spread.measure(frame, self.busy, noise, runner);
   }
-  Edgels& edgels = edges.edgels;
-  for (Edge& edge : edges.edges) {
-    detail::set_normals(edgels, edge);
-    self.orient(pixels, edge, edgels);
-    detail::Contrast contrast = self.contrast_of(frame, edgels, edge.edgels);
-    detail::take_contrast(frame, noise.level_counts, edgels, edge, contrast);
-    edge.contrast_sigmas = detail::in_sigmas(
-        edge.contrast_counts, noise.level_counts * level_along(noise.map, edgels, edge.edgels));
-    const double slope =
-        self.explained(frame, edgels, edge.edgels, noise.level_counts, contrast.counts);
-    contrast.counts = std::max(contrast.counts - slope, 0.0);
-    if (is_noisy) {
-      edge.z = self.z_of_edge(noise, edgels, edge, {contrast.counts, slope});
-    } else {
-      edge.z = detail::z_of(contrast, 0);
-      edge.log10_nfa = detail::log10_tail(edge.z);
+  const auto tasks = self.scratch.size();
+  runner.run(static_cast<int>(tasks), [&](int task) {
+    const auto first = static_cast<std::size_t>(task);
+    for (std::size_t i = first; i < edges.edges.size(); i += tasks) {
+      self.test_edge(frame, noise, pixels, self.scratch[first], edges.edgels, edges.edges[i]);
     }
-  }
+  });
   if (is_noisy) {
     self.count_false_alarms(static_cast<double>(frame.size()), edges);
   }

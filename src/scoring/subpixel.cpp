@@ -9,7 +9,13 @@ namespace thermedge {
 namespace {
 
 constexpr double kLeastResponse = 1e-6;  // so that logarithms and quotients are finite
-constexpr double kHalfPixel = 0.499;     // less than half, so that rounding finds the same pixel
+constexpr std::size_t kEdgelsPerTask = 512;
+constexpr std::size_t kEdgesPerTask = 16;
+constexpr double kHalfPixel = 0.499;  // less than half, so that rounding finds the same pixel
+
+int tasks_for(std::size_t number, std::size_t per_task) {
+  return static_cast<int>((number + per_task - 1) / per_task);
+}
 
 // Least-squares quadratic through 3 x 3 values: its derivatives at the middle one.
 struct Facet {
@@ -160,19 +166,27 @@ void compensate_curvature_bias(double along_px, double bias_share, const Edge& e
 }  // namespace
 
 void refine_positions(ImageView<const float> response, KernelSize kernel, double noise,
-                      EdgeSet& edges, const SubpixelTuning& tuning) {
+                      EdgeSet& edges, ParallelRunner& runner, const SubpixelTuning& tuning) {
   const double measured_area_px =
       tuning.measured_kernel.across_px * tuning.measured_kernel.along_px;
   const double sigma_times_strength =
       tuning.sigma_times_response * noise *
       std::sqrt(kernel.across_px * kernel.along_px / measured_area_px);
-  LogWindow window(response);
-  for (std::size_t i = 0; i < edges.edgels.size(); ++i) {
-    move_to_ridge(response, sigma_times_strength, tuning.least_sigma_px, window, edges.edgels, i);
-  }
-  for (const Edge& edge : edges.edges) {
-    compensate_curvature_bias(kernel.along_px, tuning.curvature_bias_share, edge, edges.edgels);
-  }
+  const std::size_t edgels = edges.edgels.size();
+  runner.run(tasks_for(edgels, kEdgelsPerTask), [&](int task) {
+    LogWindow window(response);
+    const std::size_t first = static_cast<std::size_t>(task) * kEdgelsPerTask;
+    for (std::size_t i = first; i < std::min(first + kEdgelsPerTask, edgels); ++i) {
+      move_to_ridge(response, sigma_times_strength, tuning.least_sigma_px, window, edges.edgels, i);
+    }
+  });
+  runner.run(tasks_for(edges.edges.size(), kEdgesPerTask), [&](int task) {
+    const std::size_t first = static_cast<std::size_t>(task) * kEdgesPerTask;
+    for (std::size_t i = first; i < std::min(first + kEdgesPerTask, edges.edges.size()); ++i) {
+      compensate_curvature_bias(kernel.along_px, tuning.curvature_bias_share, edges.edges[i],
+                                edges.edgels);
+    }
+  });
 }
 
 }  // namespace thermedge

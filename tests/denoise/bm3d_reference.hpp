@@ -206,7 +206,7 @@ using Group = std::vector<BlockPosition>;
 
 // BM3D written down plainly: one group after the other, all in double precision. The frame must be
 // one that reference blocks cover: 8 px and steps, at least whole cells of 4, or whole blocks where
-// a stage is staggered.
+// a stage is thinned.
 class ReferenceBm3d {
  public:
   ReferenceBm3d(const Image<double>& noisy, const detail::Bm3dSettings& settings)
@@ -239,7 +239,9 @@ class ReferenceBm3d {
     const int step = settings_.step_px;
     for (int y = 0; y <= height_ - kSide; y += step) {
       for (int x = 0; x <= width_ - kSide; x += step) {
-        if (stage.staggered && (x + y) / step % 2 != 0) {
+        const bool is_odd_row = y / step % 2 != 0;
+        if ((stage.thinning == detail::Thinning::kChessboard && (x + y) / step % 2 != 0) ||
+            (stage.thinning == detail::Thinning::kQuarter && (is_odd_row || x / step % 2 != 0))) {
           continue;
         }
         const Group group = matches(levels, {x, y}, settings_.search_radius_px, stage.largest_group,

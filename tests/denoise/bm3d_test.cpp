@@ -119,8 +119,8 @@ TEST(Bm3dTest, CoversEveryPixelForEveryStep) {
   for (const int step : {1, 2, 4, 8}) {
     detail::Bm3dSettings settings;
     settings.step_px = step;
-    settings.hard.staggered = step == 4;
-    settings.wiener.staggered = settings.hard.staggered;
+    settings.hard.thinning = step == 4 ? detail::Thinning::kChessboard : detail::Thinning::kNone;
+    settings.wiener.thinning = step == 4 ? detail::Thinning::kQuarter : detail::Thinning::kNone;
     settings.options.kaiser_beta = 10;
     for (int side = 8; side <= 25; ++side) {
       const Image<float> in = step_image(side, 33 - side);

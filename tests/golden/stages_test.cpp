@@ -192,15 +192,15 @@ TEST(GoldenStages, OfRobustInLittleNoise) {
                  {"stripes", 0xA34DF5CC97420469},
                  {"corrected", 0x3466E019913AF4BE},
                  {"levels", 0xE815BA5793A82FD9},
-                 {"denoised", 0x7EE72F59B24A0AD8},
-                 {"edge pixels", 0x4622FAF7A08AE9A4},
-                 {"contours", 0x9C6A6A11026A575C},
-                 {"linked", 0xC2DBDE33D6D21824},
-                 {"corners", 0xD8D3080EF0B6E8AB},
-                 {"scores", 0xD18670551D649C88},
-                 {"significance", 0xEA465BF7DCF6657D},
-                 {"positions", 0xC5E8AF1D58D25306},
-                 {"selection", 0xC162161F2C03040C}});
+                 {"denoised", 0x6CFE09576B8667A9},
+                 {"edge pixels", 0x992A886A39B62364},
+                 {"contours", 0xC52F0169CEEFEB71},
+                 {"linked", 0xE30B9886B6723516},
+                 {"corners", 0xD788C75948A90CE7},
+                 {"scores", 0xFD71DEB660DA7933},
+                 {"significance", 0x3CC7ADEECA549887},
+                 {"positions", 0x23831A517D926EDB},
+                 {"selection", 0xB29A3114F5466D22}});
 }
 
 TEST(GoldenStages, OfRobustInStrongNoise) {
@@ -211,15 +211,15 @@ TEST(GoldenStages, OfRobustInStrongNoise) {
                  {"stripes", 0x9D4065D4441131E6},
                  {"corrected", 0x9874609204C7CFA3},
                  {"levels", 0x3BB435AA73833696},
-                 {"denoised", 0x1C73B79E7E23FC62},
-                 {"edge pixels", 0xFDE1FC57E7925A7B},
-                 {"contours", 0xA61756883AE921D1},
-                 {"linked", 0x9788D652E10AEBEA},
-                 {"corners", 0x70F7167721D18759},
-                 {"scores", 0x347AF303CE914CD1},
-                 {"significance", 0x59CF6863B0409F65},
-                 {"positions", 0xA5DE7E9B4FBE7C95},
-                 {"selection", 0xB35410BFE54CC6C0}});
+                 {"denoised", 0x6FED01B3F83AC466},
+                 {"edge pixels", 0xFD5EEA742145A03B},
+                 {"contours", 0xDDF4467CB17BB0FA},
+                 {"linked", 0x7FB1BD3FCDFB6212},
+                 {"corners", 0xE92B3C3CC77F95B2},
+                 {"scores", 0xE574F5425353432D},
+                 {"significance", 0x6D6DF257934FAE30},
+                 {"positions", 0xBC46CE2851B44E84},
+                 {"selection", 0x9DCEFB96422B0778}});
 }
 
 }  // namespace

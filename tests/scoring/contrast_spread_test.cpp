@@ -46,7 +46,7 @@ class Spread {
     Image<std::uint8_t> none(frame.width(), frame.height());
     fill_pixels(none.view(), std::uint8_t{0});
     spread_.prepare(frame.width(), frame.height());
-    spread_.measure(frame, busy.empty() ? none.view() : busy, noise);
+    spread_.measure(frame, busy.empty() ? none.view() : busy, noise, *make_runner(1));
   }
 
   // Variance of the mean contrast times the number of edgels.
@@ -152,7 +152,7 @@ TEST(ContrastSpread, OfABentCurveIsTheMeanOfItsParts) {
   const SignificanceTuning tuning;
   detail::ContrastSpread spread(tuning.spread, tuning.slopes, tuning.contrast);
   spread.prepare(kWidth, kHeight);
-  spread.measure(frame, busy, noise);
+  spread.measure(frame, busy, noise, *make_runner(1));
   Edgels bent = curve(80, 1, 0);
   for (std::size_t i = 0; i < 16; ++i) {
     bent.nx[i] = 0;

@@ -102,7 +102,7 @@ class Judged {
   }
   const std::vector<Edge>& run(const NoiseModel& noise, ImageView<const std::uint8_t> valid = {},
                                const SignificanceTuning& tuning = {}) {
-    SignificanceTest(tuning).run(frame_, noise, valid, pixels_.result(), set_);
+    SignificanceTest(tuning).run(frame_, noise, valid, pixels_.result(), set_, *make_runner(1));
     return set_.edges;
   }
   [[nodiscard]] Pixels& pixels() { return pixels_; }

@@ -45,7 +45,7 @@ TEST(RefinePositions, AreExactOnAGaussianRidge) {
   for (int degrees = 0; degrees < 180; degrees += 15) {
     for (const double offset : {-0.4, -0.1, 0.0, 0.3}) {
       EdgeSet set = one_edgel(5, 5, degrees);
-      refine_positions(ridge(degrees, offset), KernelSize{1.2, 2.5}, 1, set);
+      refine_positions(ridge(degrees, offset), KernelSize{1.2, 2.5}, 1, set, *make_runner(1));
       const double along_normal =
           (set.edgels.x[0] - 5) * set.edgels.nx[0] + (set.edgels.y[0] - 5) * set.edgels.ny[0];
       EXPECT_NEAR(along_normal, offset, 1e-4) << degrees << " degrees";
@@ -56,7 +56,7 @@ TEST(RefinePositions, AreExactOnAGaussianRidge) {
 TEST(RefinePositions, TuningScalesTheStatedDeviation) {
   const auto deviation = [](const SubpixelTuning& tuning) {
     EdgeSet set = one_edgel(5, 5, 0);
-    refine_positions(ridge(0, 0), KernelSize{1.2, 2.5}, 1, set, tuning);
+    refine_positions(ridge(0, 0), KernelSize{1.2, 2.5}, 1, set, *make_runner(1), tuning);
     return set.edgels.position_sigma_px[0];
   };
   EXPECT_FLOAT_EQ(deviation({}), 1.25F / 20);
@@ -66,7 +66,7 @@ TEST(RefinePositions, TuningScalesTheStatedDeviation) {
 
 TEST(RefinePositions, NeverLeaveThePixel) {
   EdgeSet set = one_edgel(5, 5, 0);
-  refine_positions(ridge(0, 3), KernelSize{1.2, 2.5}, 1, set);
+  refine_positions(ridge(0, 3), KernelSize{1.2, 2.5}, 1, set, *make_runner(1));
   EXPECT_NEAR(set.edgels.x[0], 5.499, 1e-3);
   EXPECT_EQ(set.edgels.y[0], 5);
 }
@@ -75,10 +75,10 @@ TEST(RefinePositions, StayWhereThereIsNoMaximumAndAtTheBorder) {
   Image<float> flat(11, 11);
   fill_pixels(flat.view(), 1.0F);
   EdgeSet inside = one_edgel(5, 5, 30);
-  refine_positions(flat, KernelSize{1.2, 2.5}, 1, inside);
+  refine_positions(flat, KernelSize{1.2, 2.5}, 1, inside, *make_runner(1));
   EXPECT_EQ(inside.edgels.x[0], 5);
   EdgeSet border = one_edgel(0, 10, 30);
-  refine_positions(ridge(30, 0), KernelSize{1.2, 2.5}, 1, border);
+  refine_positions(ridge(30, 0), KernelSize{1.2, 2.5}, 1, border, *make_runner(1));
   EXPECT_EQ(border.edgels.x[0], 0);
 }
 

@@ -44,10 +44,10 @@ void visit_options(O& o, V&& v) {
 }
 
 // How much time BM3D may take; docs/benchmarks.md has what each gives.
-enum class Bm3dProfile { kQuality, kBalanced, kFast };
-inline constexpr std::array kBm3dProfiles = {EnumName{Bm3dProfile::kQuality, "quality"},
-                                             EnumName{Bm3dProfile::kBalanced, "balanced"},
-                                             EnumName{Bm3dProfile::kFast, "fast"}};
+enum class Bm3dProfile { kQuality, kBalanced, kFast, kFastest };
+inline constexpr std::array kBm3dProfiles = {
+    EnumName{Bm3dProfile::kQuality, "quality"}, EnumName{Bm3dProfile::kBalanced, "balanced"},
+    EnumName{Bm3dProfile::kFast, "fast"}, EnumName{Bm3dProfile::kFastest, "fastest"}};
 
 // Dabov et al. 2007; the roles of the parameters as in Lebrun's analysis (IPOL 2012).
 struct Bm3dOptions {
@@ -65,7 +65,7 @@ struct Bm3dOptions {
 
 template <OptionsOf<Bm3dOptions> O, class V>
 void visit_options(O& o, V&& v) {
-  v("profile", o.profile, kBm3dProfiles, "quality, balanced or fast");
+  v("profile", o.profile, kBm3dProfiles, "quality, balanced, fast or fastest");
   v("lambda", o.lambda, Bounds{0.5, 10}, "hard threshold in units of the noise");
   v("kaiser_beta", o.kaiser_beta, Bounds{0, 10}, "shape of the aggregation window");
   v("wiener", o.wiener, Bounds{0, 1}, "run the second stage");

@@ -60,6 +60,9 @@ class NoiseModelEstimator {
   // NoiseEstimator has it, is the level where there are too few blocks to tell.
   void measure(ImageView<const std::uint16_t> frame, ImageView<const std::uint8_t> valid,
                double pixel_sigma_counts, NoiseModel& model);
+  // The same without that: false, and an even map of no noise, where there are too few blocks.
+  [[nodiscard]] bool find(ImageView<const std::uint16_t> frame, ImageView<const std::uint8_t> valid,
+                          NoiseModel& model);
 
   // Memory held, bytes.
   [[nodiscard]] std::size_t memory_bytes() const {

@@ -65,7 +65,7 @@ class Preprocessor {
   }
 
  private:
-  void measure_model(Corrections& corrections);
+  void measure_noise(ParallelRunner& runner, Corrections& corrections);
   void load(const Frame& frame, Corrections& corrections);
   void load_values(ImageView<const float> values, Corrections& corrections);
   void choose_scale(ImageView<const float> values, Corrections& corrections);

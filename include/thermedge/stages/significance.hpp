@@ -8,6 +8,7 @@
 #include "thermedge/edge_set.hpp"
 #include "thermedge/image.hpp"
 #include "thermedge/noise_model.hpp"
+#include "thermedge/parallel_runner.hpp"
 #include "thermedge/stages/contrast.hpp"
 #include "thermedge/stages/oriented_filter.hpp"
 
@@ -124,8 +125,8 @@ struct SignificanceTuning {
 // product).
 //
 // Normals point to the warmer side as the filter saw it at each pixel. One object per thread;
-// allocates on the first frames of a size only; the same result for every SIMD target. Cost: about
-// 1 ms for 382x288.
+// allocates on the first frames of a size only; the same result for every SIMD target and
+// ParallelRunner. Cost: about 2 ms for 382x288 on one thread.
 class SignificanceTest {
  public:
   explicit SignificanceTest(const SignificanceTuning& tuning = {});
@@ -137,7 +138,8 @@ class SignificanceTest {
   // everywhere; `pixels`: what the edges were made of. A level of 0
   // is no noise: every edge with a contrast is certain then (z = infinity, log10_nfa = -infinity).
   void run(ImageView<const std::uint16_t> frame, const NoiseModel& noise,
-           ImageView<const std::uint8_t> valid, const OrientedFilterResult& pixels, EdgeSet& edges);
+           ImageView<const std::uint8_t> valid, const OrientedFilterResult& pixels, EdgeSet& edges,
+           ParallelRunner& runner);
 
   // Memory held, bytes.
   [[nodiscard]] std::size_t memory_bytes() const;
