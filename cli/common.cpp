@@ -120,8 +120,8 @@ Result<io::SourceOptions> CommonOptions::source_options(io::SourceOptions source
         source_flags[i] ? io::set_source_option(kSourceFlags[i].option, *source_flags[i], source)
                         : Status();
     if (!status) {
-      return failure(status.error().code,
-                     fmt::format("{}: {}", kSourceFlags[i].flag, status.error().message));
+      return failure(status.error().code, fmt::format("{} {}: {}", kSourceFlags[i].flag,
+                                                      *source_flags[i], status.error().message));
     }
   }
   return source;

@@ -148,6 +148,9 @@ TEST(Seq, IsFffAfterFff) {
   EXPECT_EQ(pixels_of(decoded(file, 1)), other);
   EXPECT_EQ(pixels_of(decoded(file, 2)), kSmooth) << "after bytes that belong to no record";
 
+  const std::string padded = first + std::string(9, '\0');
+  EXPECT_EQ(count_pages(std::as_bytes(std::span(padded)), "file", {}), 1U);
+  EXPECT_EQ(error_of(decoded(first + "FF", 1)), "file: 2 bytes are left over after the picture");
   const std::string cut = file.substr(0, file.size() - 1);
   EXPECT_EQ(count_pages(std::as_bytes(std::span(cut)), "file", {}), 3U);
   EXPECT_EQ(pixels_of(decoded(cut, 1)), other);

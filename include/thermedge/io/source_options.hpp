@@ -15,7 +15,8 @@ namespace thermedge::io {
 //   raw_size                WIDTHxHEIGHT; empty: not given
 //   raw_format              gray16le, gray16be, gray8, grayf32le or grayf32be
 //   raw_header_bytes, raw_frame_header_bytes   whole numbers
-// Errors name the option and say what would be right; `options` is unchanged then. Thread-safe.
+// Errors say what would be right, for a message that begins with the option and the text; `options`
+// is unchanged then. Thread-safe.
 [[nodiscard]] Status set_source_option(std::string_view key, std::string_view text,
                                        SourceOptions& options);
 

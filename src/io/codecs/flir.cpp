@@ -103,6 +103,9 @@ class FffReader final : public PictureReader {
       blocks_.push_back(*block);
       next = next_block(block->end);
     }
+    if (!fault_) {
+      note_left_over();
+    }
   }
 
   [[nodiscard]] std::size_t pages() const override { return blocks_.size() + (fault_ ? 1 : 0); }
@@ -129,6 +132,14 @@ class FffReader final : public PictureReader {
   }
 
  private:
+  // Zeros fill files up; anything else may be the beginning of a picture that was cut off.
+  void note_left_over() {
+    const Bytes rest = file().bytes.subspan(blocks_.back().end);
+    if (std::any_of(rest.begin(), rest.end(), [](std::byte b) { return b != std::byte{0}; })) {
+      fault_ = left_over(file(), rest.size(), "the picture").value();
+    }
+  }
+
   // Where the next block begins at or after `at`; the end of the file where there is none.
   [[nodiscard]] std::size_t next_block(std::size_t at) const {
     constexpr std::string_view kMagic("FFF\0", 4);

@@ -249,7 +249,8 @@ Status read_source(const toml::table& table, SourceOptions& source) {
                                       "should be a text in quotes or a whole number");
     if (!status) {
       status.error().message = "line " + std::to_string(value.source().begin.line) + ": source." +
-                               std::string(key.str()) + ": " + status.error().message;
+                               std::string(key.str()) + (is_text ? " = " + text : "") + ": " +
+                               status.error().message;
       return status;
     }
   }
@@ -363,7 +364,8 @@ Status apply_setting(std::string_view setting, SourceOptions& options) {
   const std::string_view key = setting.substr(0, equals);
   return set_source_option(key.substr(key.find('.') + 1), setting.substr(equals + 1), options)
       .map_error([&](Error error) {
-        error.message = std::string(key) + ": " + error.message;
+        error.message = std::string(key) + " = " + std::string(setting.substr(equals + 1)) + ": " +
+                        error.message;
         return error;
       });
 }

@@ -32,9 +32,8 @@ struct Option {
   bool is_number = false;
 };
 
-tl::unexpected<Error> bad_value(std::string_view text, std::string_view right) {
-  return failure(ErrorCode::kInvalidArgument,
-                 "'" + std::string(text) + "' should be " + std::string(right));
+tl::unexpected<Error> bad_value(std::string_view right) {
+  return failure(ErrorCode::kInvalidArgument, "should be " + std::string(right));
 }
 
 template <class E, std::size_t N>
@@ -47,7 +46,7 @@ Status set_named(std::string_view text, const std::array<Named<E>, N>& names, E&
     }
     list += (list.empty() ? "" : ", ") + std::string(known.name);
   }
-  return bad_value(text, "one of " + list);
+  return bad_value("one of " + list);
 }
 
 template <class E, std::size_t N>
@@ -64,9 +63,10 @@ bool parse_whole(std::string_view text, T& number) {
   return error == std::errc{} && stop == end;
 }
 
+constexpr std::string_view kCropWords = "X,Y,WIDTH,HEIGHT in pixels, top-half, bottom-half or all";
+
 Status set_bytes(std::string_view text, std::uint64_t& field) {
-  return parse_whole(text, field) ? Status()
-                                  : Status(bad_value(text, "a number of bytes, 0 or more"));
+  return parse_whole(text, field) ? Status() : Status(bad_value("a number of bytes, 0 or more"));
 }
 
 Status set_size(std::string_view text, SourceOptions& options) {
@@ -78,7 +78,7 @@ Status set_size(std::string_view text, SourceOptions& options) {
   const bool is_size = x < text.size() && parse_whole(text.substr(0, x), options.raw_width) &&
                        parse_whole(text.substr(x + 1), options.raw_height) &&
                        options.raw_width > 0 && options.raw_height > 0;
-  return is_size ? Status() : Status(bad_value(text, "WIDTHxHEIGHT, e.g. 382x288"));
+  return is_size ? Status() : Status(bad_value("WIDTHxHEIGHT, e.g. 382x288"));
 }
 
 std::string size_text(const SourceOptions& options) {
@@ -90,7 +90,9 @@ std::string size_text(const SourceOptions& options) {
 const std::array kOptions = {
     Option{"crop", "part of each frame: all, top-half, bottom-half or X,Y,WIDTH,HEIGHT, px",
            [](std::string_view text, SourceOptions& options) {
-             return parse_crop(text).map([&](const Crop& crop) { options.crop = crop; });
+             const auto crop = parse_crop(text);
+             options.crop = crop.value_or(options.crop);
+             return crop ? Status() : Status(bad_value(kCropWords));
            },
            [](const SourceOptions& options) { return crop_text(options.crop); }},
     Option{"byte_order",
