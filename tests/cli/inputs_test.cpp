@@ -168,7 +168,7 @@ TEST_F(Inputs, ResultsAreNamedAfterTheirFrames) {
   write_frame("b/x.png");
   const std::string inputs = " a/x.png 'sim:desk?width=48&height=36&frames=2' b/x.png ";
   const Files pictures = {"x.png", "x_2.png", "desk_0000.png", "desk_0001.png"};
-  for (const std::string command : {"scale --gain 0.2", "denoise --method gaussian"}) {
+  for (const std::string command : {"scale --gain 0.1", "denoise --method gaussian"}) {
     ASSERT_EQ(output_of(command + inputs + "-o " + command.substr(0, 5)), "");
     EXPECT_EQ(files_in(command.substr(0, 5)), pictures) << command;
   }
@@ -189,9 +189,10 @@ TEST_F(Inputs, ResultsAreNamedAfterTheirFrames) {
 TEST_F(Inputs, OneFileForSeveralFramesIsOneErrorAtOnce) {
   write_frame("frame.png");
   write_text(path("stack.npy"), stack_of_two());
-  for (const std::string command : {"scale", "denoise --method gaussian", "detect --denoise none",
-                                    "trace", "stages --panel-px 100 --denoise none",
-                                    "compare --panel-px 100 --set denoise.method=none"}) {
+  for (const std::string command :
+       {"scale --gain 0.1", "denoise --method gaussian", "detect --denoise none", "trace",
+        "stages --panel-px 100 --denoise none",
+        "compare --panel-px 100 --set denoise.method=none"}) {
     for (const std::string inputs :
          {"frame.png frame.png", "stack.npy", "frame.png sim:corridor"}) {
       const auto result = run(command + " " + inputs + " -o one.png");
@@ -211,7 +212,7 @@ TEST_F(Inputs, EndingsThatAreNotWrittenAreErrors) {
     std::string command, endings;
   };
   for (const Case& c :
-       {Case{"scale", ".png, .tif, .tiff, .pgm, .npy or .raw"},
+       {Case{"scale --gain 0.1", ".png, .tif, .tiff, .pgm, .npy or .raw"},
         {"denoise --method gaussian", ".png, .tif, .tiff, .pgm, .npy or .raw"},
         {"detect --denoise none", ".png, .json or .svg"},
         {"trace", ".png, .json or .svg"},
@@ -246,9 +247,10 @@ TEST_F(Inputs, AreNeverReplaced) {
   fs::create_symlink("in/a.png", directory_ / "link.png");
   fs::create_hard_link(directory_ / "in/a.png", directory_ / "hard.png");
   const std::string before = text_of("in/a.png");
-  for (const std::string command : {"scale", "denoise --method gaussian", "detect --denoise none",
-                                    "trace", "stages --panel-px 100 --denoise none",
-                                    "compare --panel-px 100 --set denoise.method=none"}) {
+  for (const std::string command :
+       {"scale --gain 0.1", "denoise --method gaussian", "detect --denoise none", "trace",
+        "stages --panel-px 100 --denoise none",
+        "compare --panel-px 100 --set denoise.method=none"}) {
     for (const std::string arguments :
          {"in -o in", "in -o ./in/", "in -o in/../in", "in -o by_link", "by_link -o in",
           "'in/*.png' -o in", "in/a.png -o in", "in/a.png -o in/a.png", "in/a.png -o ./in//a.png",
@@ -277,8 +279,8 @@ TEST_F(Inputs, AreNeverReplaced) {
   EXPECT_EQ(text_of("in/a.png"), before);
   EXPECT_TRUE(fs::is_symlink(directory_ / "link.png"));
   // Beside the inputs there is room.
-  EXPECT_EQ(output_of("scale in/a.png -o in/a8.png"), "");
-  EXPECT_EQ(output_of("scale in -o in/eight_bits"), "");
+  EXPECT_EQ(output_of("scale in/a.png --gain 0.1 -o in/a8.png"), "");
+  EXPECT_EQ(output_of("scale in --gain 0.1 -o in/eight_bits"), "");
 }
 
 TEST_F(Inputs, SceneFilesAreNotReplaced) {
@@ -306,7 +308,7 @@ TEST_F(Inputs, AreCroppedByFlagAndFile) {
   EXPECT_EQ(size_of("--set source.crop=top-half"), "48x18");
   EXPECT_EQ(size_of("--config half.toml --crop 0,0,20,20"), "20x20") << "the flag wins";
   EXPECT_EQ(size_of("--config half.toml --crop all"), "48x36");
-  for (const std::string command : {"denoise --method none", "scale"}) {
+  for (const std::string command : {"denoise --method none", "scale --gain 0.1"}) {
     ASSERT_EQ(output_of(command + " frame.png --crop 4,2,40,30 -o part.pgm"), "");
     EXPECT_EQ(text_of("part.pgm").substr(3, 5), "40 30") << command;
   }
