@@ -1,13 +1,13 @@
 // What -o names, and the rule that no output is an input: the one place for both.
 #pragma once
 
-#include <compare>
 #include <cstdint>
 #include <map>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "thermedge/result.hpp"
@@ -49,7 +49,9 @@ class InputFiles {
   struct Identity {
     std::uint64_t device = 0;
     std::uint64_t number = 0;
-    auto operator<=>(const Identity&) const = default;
+    friend bool operator<(const Identity& a, const Identity& b) {
+      return std::pair(a.device, a.number) < std::pair(b.device, b.number);
+    }
   };
   using Names = std::map<Identity, std::string>;
   static std::optional<Identity> identity_of(const std::string& path);

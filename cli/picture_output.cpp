@@ -1,6 +1,7 @@
 #include "picture_output.hpp"
 
 #include <filesystem>
+#include <utility>
 
 namespace thermedge::cli {
 namespace {
@@ -38,7 +39,7 @@ Result<std::string> PictureOutput::beside(const std::string& name) const {
   const std::string path =
       one_file_ ? (output.parent_path() / (output.stem().string() + "_" + name)).string()
                 : (output / name).string();
-  return inputs_.check_file("-o", path).map([&] { return path; });
+  return inputs_.check_file("-o", path).map([&] { return std::move(path); });
 }
 
 }  // namespace thermedge::cli
