@@ -36,9 +36,9 @@ Result<std::string> PictureOutput::path(const std::string& stem, const std::stri
 
 Result<std::string> PictureOutput::beside(const std::string& name) const {
   const std::filesystem::path output(output_);
-  const std::string path =
-      one_file_ ? (output.parent_path() / (output.stem().string() + "_" + name)).string()
-                : (output / name).string();
+  std::string path = one_file_
+                         ? (output.parent_path() / (output.stem().string() + "_" + name)).string()
+                         : (output / name).string();
   return inputs_.check_file("-o", path).map([&] { return std::move(path); });
 }
 
