@@ -5,28 +5,16 @@
 #include <algorithm>
 #include <charconv>
 #include <filesystem>
+#include <memory>
 #include <system_error>
 
 #include "input.hpp"
 #include "thermedge/io/config.hpp"
+#include "thermedge/io/source_options.hpp"
 #include "thermedge/simd.hpp"
 
 namespace thermedge::cli {
 namespace {
-
-Status parse_size(const std::string& text, io::SourceOptions& options) {
-  const char* end = text.data() + text.size();
-  const auto width = std::from_chars(text.data(), end, options.raw_width);
-  if (width.ec == std::errc{} && width.ptr != end && *width.ptr == 'x') {
-    const auto height = std::from_chars(width.ptr + 1, end, options.raw_height);
-    if (height.ec == std::errc{} && height.ptr == end && options.raw_width > 0 &&
-        options.raw_height > 0) {
-      return {};
-    }
-  }
-  return failure(ErrorCode::kInvalidArgument,
-                 fmt::format("--raw-size {}: should be WIDTHxHEIGHT, e.g. 382x288", text));
-}
 
 // `name` in a directory, which is made where it is missing.
 Result<std::string> in_directory(const std::filesystem::path& directory, const std::string& name) {
@@ -40,15 +28,55 @@ Result<std::string> in_directory(const std::filesystem::path& directory, const s
 }
 
 template <class Options>
-Status apply_settings(const std::vector<std::string>& settings, Options& options) {
+Status apply_settings(const std::vector<std::string>& settings, Options& options,
+                      io::SourceOptions& source) {
   for (const std::string& setting : settings) {
-    if (Status status = io::apply_setting(setting, options); !status) {
+    Status status = io::is_source_setting(setting) ? io::apply_setting(setting, source)
+                                                   : io::apply_setting(setting, options);
+    if (!status) {
       status.error().message = "--set " + status.error().message;
       return status;
     }
   }
   return {};
 }
+
+tl::unexpected<Error> too_many_frames(const CommonOptions& common, std::size_t frames) {
+  return failure(
+      ErrorCode::kInvalidArgument,
+      fmt::format("-o {}: has room for one frame, and the inputs hold {}; give a "
+                  "directory: -o DIR",
+                  common.output, frames > 0 ? std::to_string(frames) : std::string("several")));
+}
+
+// Frames one after the other; errors of reading are reported on the way.
+class FrameReader {
+ public:
+  FrameReader(std::unique_ptr<io::FrameSource> source, Console& report)
+      : source_(std::move(source)), report_(report) {}
+
+  // False at the end.
+  bool next(io::SourceFrame& frame) {
+    for (;;) {
+      const auto more = source_->next(frame);
+      if (more) {
+        done_ += *more ? 1 : 0;
+        return *more;
+      }
+      report_.error(more.error().message);
+      report_progress(++done_);
+    }
+  }
+  void report_progress() { report_progress(done_); }
+  [[nodiscard]] std::size_t size_hint() const { return source_->size_hint(); }
+
+ private:
+  void report_progress(std::size_t done) { report_.progress(done, source_->size_hint()); }
+
+  std::unique_ptr<io::FrameSource> source_;
+  Console& report_;
+  std::size_t done_ = 0;
+};
 
 }  // namespace
 
@@ -62,14 +90,15 @@ void RunOptions::add_to(CLI::App& app) {
 
 void CommonOptions::add_to(CLI::App& app) {
   app.add_option("INPUT", inputs,
-                 "picture files, directories, globs, .raw files, - (standard input), "
+                 "files (PNG, TIFF, PGM, NPY, FLIR JPEG, FFF and SEQ, raw), directories, globs, - "
+                 "(raw frames on standard input), "
                  "sim:NAME[?seed=N&frames=N]")
       ->required();
   app.add_option("-o,--output", output, "file for one frame, directory for many");
-  app.add_option("--raw-size", raw_size, "size of headerless frames, WIDTHxHEIGHT");
-  app.add_option("--raw-format", raw_format, "pixels of headerless frames")
-      ->check(CLI::IsMember({"gray16le", "gray16be", "gray8"}))
-      ->capture_default_str();
+  for (std::size_t i = 0; i < kSourceFlags.size(); ++i) {
+    app.add_option(kSourceFlags[i].flag, source_flags[i], kSourceFlags[i].help)
+        ->type_name(kSourceFlags[i].type);
+  }
   app.add_option("--simd", simd, "instruction set: auto or a target's name")->capture_default_str();
   RunOptions::add_to(app);
 }
@@ -78,32 +107,49 @@ void CommonOptions::add_validity_to(CLI::App& app) {
   app.add_option("--mask", validity.mask,
                  "8-bit picture of the frames' size, 0 where a pixel is no measurement");
   app.add_option("--invalid", validity.counts,
-                 "count that means no measurement, 0..65535; may be repeated")
+                 "count (of float frames a value) that means no measurement; may be repeated")
       ->expected(1)
       ->allow_extra_args(false)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->type_name("COUNT");
 }
 
-Result<io::SourceOptions> CommonOptions::prepare() const {
+Result<io::SourceOptions> CommonOptions::source_options(io::SourceOptions source) const {
+  for (std::size_t i = 0; i < kSourceFlags.size(); ++i) {
+    const Status status =
+        source_flags[i] ? io::set_source_option(kSourceFlags[i].option, *source_flags[i], source)
+                        : Status();
+    if (!status) {
+      return failure(status.error().code, fmt::format("{} {}: {}", kSourceFlags[i].flag,
+                                                      *source_flags[i], status.error().message));
+    }
+  }
+  return source;
+}
+
+Status CommonOptions::check() const {
   if (inputs.empty()) {
     return failure(ErrorCode::kInvalidArgument,
                    "INPUT is required: a file, directory, glob, - or sim:NAME");
   }
-  io::SourceOptions options;
-  options.raw_format = raw_format == "gray16be" ? io::RawFormat::kGray16Be
-                       : raw_format == "gray8"  ? io::RawFormat::kGray8
-                                                : io::RawFormat::kGray16Le;
-  if (!raw_size.empty()) {
-    if (Status status = parse_size(raw_size, options); !status) {
-      return tl::unexpected(status.error());
-    }
-  }
-  const auto target = SimdTarget::named(simd);
-  if (!target) {
+  if (const auto target = SimdTarget::named(simd); !target) {
     return failure(target.error().code, "--simd: " + target.error().message);
   }
-  return options;
+  return {};
+}
+
+Result<io::SourceOptions> CommonOptions::prepare() const {
+  return check().and_then([&] { return source_options(); });
+}
+
+InputFiles CommonOptions::input_files(const io::SourceOptions& source,
+                                      const std::vector<std::string>& more) const {
+  InputFiles files(inputs, source.raw_width > 0);
+  files.add(validity.mask);
+  for (const std::string& file : more) {
+    files.add(file);
+  }
+  return files;
 }
 
 void ConfigOptions::add_to(CLI::App& app) {
@@ -115,20 +161,21 @@ void ConfigOptions::add_to(CLI::App& app) {
   app.add_flag("--dump-config", dump, "print all options as TOML and stop");
 }
 
-Status ConfigOptions::apply(io::PresetChoice choice, DetectorOptions& options) const {
+Status ConfigOptions::apply(io::PresetChoice choice, DetectorOptions& options,
+                            io::SourceOptions& source) const {
   Status status;
   if (!file.empty()) {
-    status = io::load_config(file, choice, options);
+    status = io::load_config(file, choice, options, &source);
   }
-  return status.and_then([&] { return apply_settings(settings, options); });
+  return status.and_then([&] { return apply_settings(settings, options, source); });
 }
 
-Status ConfigOptions::apply(FrameDenoiserOptions& options) const {
+Status ConfigOptions::apply(FrameDenoiserOptions& options, io::SourceOptions& source) const {
   Status status;
   if (!file.empty()) {
-    status = io::load_config(file, options);
+    status = io::load_config(file, options, &source);
   }
-  return status.and_then([&] { return apply_settings(settings, options); });
+  return status.and_then([&] { return apply_settings(settings, options, source); });
 }
 
 Result<double> parse_sigma(const std::string& text) {
@@ -146,24 +193,30 @@ Result<double> parse_sigma(const std::string& text) {
 }
 
 int for_each_frame(const CommonOptions& common, const io::SourceOptions& source, Console& report,
-                   const std::function<Status(const io::SourceFrame&)>& handle) {
-  const auto opened = open_inputs(common.inputs, source, common.validity);
+                   Room room, const std::function<Status(const io::SourceFrame&)>& handle) {
+  io::SourceOptions noting = source;
+  noting.note = [&report](const std::string& note) { report.note(note); };
+  auto opened = open_inputs(common.inputs, noting, common.validity);
   if (!opened) {
     return report.fail(opened.error());
   }
-  const auto& frames = *opened;
+  FrameReader frames(std::move(*opened), report);
+  const std::size_t expected = frames.size_hint();
+  if (room == Room::kOne && expected > 1) {
+    return report.fail(too_many_frames(common, expected).value());
+  }
   io::SourceFrame frame;
-  for (std::size_t done = 1;; ++done) {
-    const auto more = frames->next(frame);
-    if (!more) {
-      report.error(more.error().message);
-    } else if (!*more) {
-      return report.exit_code();
-    } else if (const Status status = handle(frame); !status) {
+  io::SourceFrame second;  // read ahead where there is room for one
+  while (frames.next(frame)) {
+    if (room == Room::kOne && frames.next(second)) {
+      return report.fail(too_many_frames(common, frames.size_hint()).value());
+    }
+    if (const Status status = handle(frame); !status) {
       report.error(frame.source + ": " + status.error().message);
     }
-    report.progress(done, frames->size_hint());
+    frames.report_progress();
   }
+  return report.exit_code();
 }
 
 void OutputDirectory::begin_frame(const std::string& stem) {
@@ -178,16 +231,17 @@ void OutputDirectory::begin_frame(const std::string& stem) {
 
 Result<std::string> OutputDirectory::path(const std::string& kind, const std::string& ending) {
   const std::filesystem::path directory(directory_);
-  return in_directory(kind.empty() ? directory : directory / kind, stem_ + ending);
+  return in_directory(kind.empty() ? directory : directory / kind, stem_ + ending)
+      .and_then([&](const std::string& path) { return unless_input(path); });
 }
 
 Result<std::string> OutputDirectory::path_in_folder(const std::string& name) {
-  return in_directory(std::filesystem::path(directory_) / stem_, name);
+  return in_directory(std::filesystem::path(directory_) / stem_, name)
+      .and_then([&](const std::string& path) { return unless_input(path); });
 }
 
-tl::unexpected<Error> only_one_frame(const std::string& output) {
-  return failure(ErrorCode::kInvalidArgument,
-                 output + " holds the first frame; for several give -o DIR");
+Result<std::string> OutputDirectory::unless_input(const std::string& path) const {
+  return inputs_.check_file("-o", path).map([&] { return path; });
 }
 
 std::vector<std::string> split_list(const std::string& list) {

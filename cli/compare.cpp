@@ -79,27 +79,30 @@ Status write(const figures::Comparison& made, const std::vector<std::string>& wa
 }
 
 int CompareCommand::draw() const {
-  return run([&](const DetectorOptions& detector, const io::SourceOptions& source,
-                 Console& report) {
-    const auto wanted = wanted_maps();
-    if (!wanted) {
-      return report.fail(wanted.error());
-    }
-    auto output = FigureOutput::create(common, format);
-    if (!output) {
-      return report.fail(output.error());
-    }
-    auto sheet = comparison(detector).and_then(figures::ComparisonSheet::create);
-    if (!sheet) {
-      return report.fail(sheet.error());
-    }
-    return for_each_frame(common, source, report, [&](const io::SourceFrame& frame) {
-      return output->begin_frame(frame.stem)
-          .and_then(
-              [&] { return sheet->draw(frame.counts, frame.bits, frame.source, frame.valid); })
-          .and_then([&](const figures::Comparison& made) { return write(made, *wanted, *output); });
-    });
-  });
+  return run(
+      [&](const DetectorOptions& detector, const io::SourceOptions& source, Console& report) {
+        const auto wanted = wanted_maps();
+        if (!wanted) {
+          return report.fail(wanted.error());
+        }
+        auto output = FigureOutput::create(common.output, format,
+                                           common.input_files(source, {config.file}), *wanted);
+        if (!output) {
+          return report.fail(output.error());
+        }
+        auto sheet = comparison(detector).and_then(figures::ComparisonSheet::create);
+        if (!sheet) {
+          return report.fail(sheet.error());
+        }
+        return for_each_frame(
+            common, source, report, output->room(), [&](const io::SourceFrame& frame) {
+              output->begin_frame(frame.stem);
+              return sheet->draw(frame.counts, frame.bits, frame.source, frame.valid)
+                  .and_then([&](const figures::Comparison& made) {
+                    return write(made, *wanted, *output);
+                  });
+            });
+      });
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "picture_output.hpp"
 #include "thermedge/frame_denoiser.hpp"
 #include "thermedge/io/config.hpp"
+#include "thermedge/io/source_options.hpp"
 #include "thermedge/io/write.hpp"
 
 namespace thermedge::cli {
@@ -30,18 +31,26 @@ Status write_counts(const std::string& path, ImageView<const std::uint16_t> coun
   return io::write_picture(path, ImageView<const std::uint8_t>(levels.view()));
 }
 
+// In the unit of a float frame.
+Status write_values(const std::string& path, const FrameDenoiser& denoiser,
+                    const io::SourceFrame& frame) {
+  Image<float> values(frame.width(), frame.height());
+  denoiser.copy_values(values);
+  return io::write_picture(path, ImageView<const float>(values.view()));
+}
+
 struct DenoiseCommand {
   CommonOptions common;
   ConfigOptions config;
   std::optional<std::string> method;
   std::string sigma = "auto";
 
-  [[nodiscard]] Status apply_to(FrameDenoiserOptions& options) const;
+  [[nodiscard]] Status apply_to(FrameDenoiserOptions& options, io::SourceOptions& source) const;
   [[nodiscard]] int run() const;
 };
 
-Status DenoiseCommand::apply_to(FrameDenoiserOptions& options) const {
-  Status status = config.apply(options);
+Status DenoiseCommand::apply_to(FrameDenoiserOptions& options, io::SourceOptions& source) const {
+  Status status = config.apply(options, source);
   if (method) {
     status =
         status.and_then([&] { return io::apply_setting("denoise.method=" + *method, options); });
@@ -56,32 +65,38 @@ Status DenoiseCommand::apply_to(FrameDenoiserOptions& options) const {
 int DenoiseCommand::run() const {
   Console console = common.report();
   FrameDenoiserOptions options;
-  if (const Status status = apply_to(options); !status) {
+  io::SourceOptions configured;
+  if (const Status status = apply_to(options, configured); !status) {
     return console.fail(status.error());
   }
-  if (config.dump) {
-    fmt::print("{}", io::dump_config(options));
-    return kGood;
-  }
-  const auto source = common.prepare();
+  const auto source = common.source_options(configured);
   if (!source) {
     return console.fail(source.error());
   }
-  if (common.output.empty()) {
-    return console.fail({ErrorCode::kInvalidArgument,
-                         "-o is required: a file for one frame, a directory for many"});
+  if (config.dump) {
+    fmt::print("{}{}", io::dump_config(options), io::dump_source_options(*source));
+    return kGood;
   }
-  PictureOutput output(common.output);
+  if (const Status status = common.check(); !status) {
+    return console.fail(status.error());
+  }
+  auto output = PictureOutput::create(common.output, common.input_files(*source, {config.file}));
+  if (!output) {
+    return console.fail(output.error());
+  }
   const auto runner = make_runner(common.threads);
   FrameDenoiser denoiser(options);
-  return for_each_frame(common, *source, console, [&](const io::SourceFrame& frame) -> Status {
-    return denoiser.run(frame.frame(), *runner)
-        .and_then([&](ImageView<const std::uint16_t> counts) {
-          return output.path(frame.stem).and_then([&](const std::string& path) {
-            return write_counts(path, counts, frame.bits);
-          });
-        });
-  });
+  return for_each_frame(
+      common, *source, console, output->room(), [&](const io::SourceFrame& frame) -> Status {
+        return denoiser.run(frame.frame(), *runner)
+            .and_then([&](ImageView<const std::uint16_t> counts) {
+              return output->path(frame.stem, frame.is_float() ? ".tif" : ".png")
+                  .and_then([&](const std::string& path) {
+                    return frame.is_float() ? write_values(path, denoiser, frame)
+                                            : write_counts(path, counts, frame.bits);
+                  });
+            });
+      });
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "thermedge/io/config.hpp"
+#include "thermedge/io/source_options.hpp"
 #include "thermedge/radiometry/planck.hpp"
 
 namespace thermedge::cli {
@@ -53,7 +54,7 @@ void DetectorCommand::add_denoising_to(CLI::App& app) {
   app.add_option("--sigma", sigma, "noise told to the denoiser: auto or counts");
 }
 
-Result<DetectorOptions> DetectorCommand::options() const {
+Result<DetectorOptions> DetectorCommand::options(io::SourceOptions& source) const {
   DetectorOptions options;
   for (const auto& known : kPresets) {
     if (known.name == preset) {
@@ -61,7 +62,7 @@ Result<DetectorOptions> DetectorCommand::options() const {
     }
   }
   Status status =
-      config.apply(preset ? io::PresetChoice::kFixed : io::PresetChoice::kFree, options);
+      config.apply(preset ? io::PresetChoice::kFixed : io::PresetChoice::kFree, options, source);
   for (std::size_t i = 0; i < kFlags.size() && status; ++i) {
     if (flags[i]) {
       status = io::apply_setting(std::string(kFlags[i].option) + "=" + *flags[i], options)
@@ -91,17 +92,21 @@ Result<DetectorOptions> DetectorCommand::options() const {
 
 int DetectorCommand::run(const Work& work) const {
   Console report = common.report();
-  const auto chosen = options();
+  io::SourceOptions configured;
+  const auto chosen = options(configured);
   if (!chosen) {
     return report.fail(chosen.error());
   }
-  if (config.dump) {
-    fmt::print("{}", io::dump_config(*chosen));
-    return kGood;
-  }
-  const auto source = common.prepare();
+  const auto source = common.source_options(configured);
   if (!source) {
     return report.fail(source.error());
+  }
+  if (config.dump) {
+    fmt::print("{}{}", io::dump_config(*chosen), io::dump_source_options(*source));
+    return kGood;
+  }
+  if (const Status status = common.check(); !status) {
+    return report.fail(status.error());
   }
   return work(*chosen, *source, report);
 }

@@ -46,7 +46,8 @@ struct DetectorCommand {
   void add_to(CLI::App& app);
   void add_denoising_to(CLI::App& app);
   // Dedicated options come last, over --set, over the file, over the preset.
-  [[nodiscard]] Result<DetectorOptions> options() const;
+  // `source` takes what the file and --set say about sources.
+  [[nodiscard]] Result<DetectorOptions> options(io::SourceOptions& source) const;
 
   // Prints the options where --dump-config asks for it; else runs `work`. Says what is wrong with
   // the arguments. Returns the exit code.

@@ -14,7 +14,8 @@ void EdgeCommand::add_to(CLI::App& app) {
 int EdgeCommand::run_on_frames(const Step& step) const {
   return run(
       [&](const DetectorOptions& options, const io::SourceOptions& source, Console& console) {
-        auto writer = ResultWriter::create(common.output, write);
+        auto writer =
+            ResultWriter::create(common.output, write, common.input_files(source, {config.file}));
         if (!writer) {
           return console.fail(writer.error());
         }
@@ -26,12 +27,13 @@ int EdgeCommand::run_on_frames(const Step& step) const {
         ClippingWarning clipping("--set grey_scale.gain=", paper ? paper->grey_scale.gain : 0,
                                  ", and --preset robust or fast scale nothing");
         Detection detection;
-        return for_each_frame(common, source, console, [&](const io::SourceFrame& frame) {
-          return step(*detector, frame, detection).and_then([&] {
-            clipping.frame(frame.source, frame.counts, detection.clipped, console);
-            return writer->write(detection, frame.counts, frame.source, frame.stem);
-          });
-        });
+        return for_each_frame(
+            common, source, console, writer->room(), [&](const io::SourceFrame& frame) {
+              return step(*detector, frame, detection).and_then([&] {
+                clipping.frame(frame.source, frame.counts, detection.clipped, console);
+                return writer->write(detection, frame.counts, frame.source, frame.stem);
+              });
+            });
       });
 }
 

@@ -1,17 +1,25 @@
 // `evaluate`: how good are these edges?
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <array>
+#include <filesystem>
 #include <memory>
+#include <string_view>
+#include <system_error>
 
 #include "commands.hpp"
 #include "common.hpp"
 #include "console.hpp"
 #include "evaluation_page.hpp"
 #include "thermedge/eval/evaluate.hpp"
+#include "thermedge/io/files.hpp"
 #include "thermedge/io/write.hpp"
 
 namespace thermedge::cli {
 namespace {
+
+namespace fs = std::filesystem;
 
 struct EvaluateCommand : RunOptions {
   std::string found;
@@ -28,8 +36,9 @@ struct EvaluateCommand : RunOptions {
  private:
   [[nodiscard]] Result<std::string> with_truth(const eval::PredictionSet& set,
                                                Console& report) const;
+  [[nodiscard]] Status check_output() const;
   [[nodiscard]] Result<std::string> alone(const eval::PredictionSet& set, Console& report) const;
-  [[nodiscard]] bool as_json() const { return json || output.ends_with(".json"); }
+  [[nodiscard]] bool as_json() const { return json || io::ending_of(output) == ".json"; }
 };
 
 void report_all(const std::vector<Error>& errors, Console& report) {
@@ -62,10 +71,35 @@ Result<std::string> EvaluateCommand::alone(const eval::PredictionSet& set, Conso
       });
 }
 
+// Files of results and truth, alone or in directories.
+Status EvaluateCommand::check_output() const {
+  constexpr std::array<std::string_view, 8> kRead = {".png", ".json", ".jsonl", ".npz",
+                                                     ".mat", ".npy",  ".tif",   ".tiff"};
+  if (output.empty()) {
+    return {};
+  }
+  InputFiles inputs;
+  for (const std::string& input : {found, truth}) {
+    inputs.add(input);
+    std::error_code error;
+    for (fs::directory_iterator entry(input, error), end; !error && entry != end;
+         entry.increment(error)) {
+      const std::string path = entry->path().string();
+      if (std::find(kRead.begin(), kRead.end(), io::ending_of(path)) != kRead.end()) {
+        inputs.add(path);
+      }
+    }
+  }
+  return inputs.check_file("-o", output);
+}
+
 int EvaluateCommand::run() {
   Console report = this->report();
   if (empty && !truth.empty()) {
     return report.fail({ErrorCode::kInvalidArgument, "--empty: empty scenes have no GT"});
+  }
+  if (const Status status = check_output(); !status) {
+    return report.fail(status.error());
   }
   options.count.thin = !no_thin;
   options.progress = [&report](std::size_t done, std::size_t all) { report.progress(done, all); };

@@ -1,21 +1,46 @@
 #include "figure_output.hpp"
 
+#include <array>
 #include <filesystem>
+#include <string_view>
 
 namespace thermedge::cli {
+namespace {
 
-FigureOutput::FigureOutput(std::string output, std::string format)
+constexpr std::array<std::string_view, 3> kEndings = {".png", ".svg", ".pdf"};
+
+// A file beside the sheet, "x_<name><ending>".
+std::string beside_sheet(const std::string& sheet, const std::string& name,
+                         const std::string& ending) {
+  std::filesystem::path beside(sheet);
+  beside.replace_filename(beside.stem().string() + "_" + name + ending);
+  return beside.string();
+}
+
+}  // namespace
+
+FigureOutput::FigureOutput(std::string output, std::string format, bool single, InputFiles inputs)
     : output_(std::move(output)),
       format_(std::move(format)),
-      single_(figures::is_figure_path(output_)),
-      directory_(output_) {}
+      single_(single),
+      directory_(output_, std::move(inputs)) {}
 
-Result<FigureOutput> FigureOutput::create(const CommonOptions& common, const std::string& format) {
-  if (common.output.empty()) {
+Result<FigureOutput> FigureOutput::create(const std::string& output, const std::string& format,
+                                          const InputFiles& inputs,
+                                          const std::vector<std::string>& beside) {
+  if (output.empty() || output == "-") {
     return failure(ErrorCode::kInvalidArgument,
                    "-o is required: a directory, or a .png, .svg or .pdf for the sheet");
   }
-  return FigureOutput(common.output, format);
+  return parse_output(output, kEndings).and_then([&](const OutputTarget& target) {
+    const bool single = target.kind == OutputKind::kFile;
+    Status status = single ? inputs.check_file("-o", output) : inputs.check_directory("-o", output);
+    for (const std::string& name : single ? beside : std::vector<std::string>()) {
+      status = status.and_then(
+          [&] { return inputs.check_file("-o", beside_sheet(output, name, ".png")); });
+    }
+    return status.map([&] { return FigureOutput(output, format, single, inputs); });
+  });
 }
 
 void FigureOutput::add_options_to(CLI::App& app, std::string& format, double& panel_width) {
@@ -31,13 +56,7 @@ void FigureOutput::add_panel_width_to(CLI::App& app, double& panel_width) {
       ->capture_default_str();
 }
 
-Status FigureOutput::begin_frame(const std::string& stem) {
-  directory_.begin_frame(stem);
-  if (++frames_ > 1 && single_) {
-    return only_one_frame(output_);
-  }
-  return {};
-}
+void FigureOutput::begin_frame(const std::string& stem) { directory_.begin_frame(stem); }
 
 Status FigureOutput::write_sheet(const figures::Figure& sheet) {
   return single_ ? sheet.write(output_) : write("sheet", sheet);
@@ -50,12 +69,7 @@ Status FigureOutput::write(const std::string& name, const figures::Figure& figur
 }
 
 Result<std::string> FigureOutput::path(const std::string& name, const std::string& ending) {
-  if (!single_) {
-    return directory_.path_in_folder(name + ending);
-  }
-  std::filesystem::path beside(output_);
-  beside.replace_filename(beside.stem().string() + "_" + name + ending);
-  return beside.string();
+  return single_ ? beside_sheet(output_, name, ending) : directory_.path_in_folder(name + ending);
 }
 
 }  // namespace thermedge::cli

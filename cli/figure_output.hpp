@@ -12,12 +12,16 @@ namespace thermedge::cli {
 // x_<name>.<ending>. -o DIR: DIR/<stem>/sheet.<format> and DIR/<stem>/<name>.<ending>.
 class FigureOutput {
  public:
-  // Fails where -o is missing.
-  [[nodiscard]] static Result<FigureOutput> create(const CommonOptions& common,
-                                                   const std::string& format);
+  // Fails where -o is missing, has an ending that is not written, or is an input or its folder.
+  // `beside`: names of what is written beside a single sheet as PNG.
+  [[nodiscard]] static Result<FigureOutput> create(const std::string& output,
+                                                   const std::string& format,
+                                                   const InputFiles& inputs,
+                                                   const std::vector<std::string>& beside = {});
 
-  // Once per frame, before the others; fails for a second frame of a single sheet.
-  [[nodiscard]] Status begin_frame(const std::string& stem);
+  // Once per frame, before the others.
+  void begin_frame(const std::string& stem);
+  [[nodiscard]] Room room() const { return single_ ? Room::kOne : Room::kMany; }
   [[nodiscard]] bool is_single_file() const { return single_; }
   [[nodiscard]] Status write_sheet(const figures::Figure& sheet);
   [[nodiscard]] Status write(const std::string& name, const figures::Figure& figure);
@@ -28,13 +32,12 @@ class FigureOutput {
   static void add_panel_width_to(CLI::App& app, double& panel_width);
 
  private:
-  FigureOutput(std::string output, std::string format);
+  FigureOutput(std::string output, std::string format, bool single, InputFiles inputs);
 
   std::string output_;
   std::string format_;
   bool single_;
   OutputDirectory directory_;
-  int frames_ = 0;
 };
 
 }  // namespace thermedge::cli

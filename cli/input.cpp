@@ -32,6 +32,10 @@ class SimSource final : public io::FrameSource {
       return tl::unexpected(rendered.error());
     }
     frame.counts = std::move(rendered->counts);
+    frame.values.resize(0, 0);
+    frame.valid.resize(0, 0);
+    frame.counts_model.reset();
+    frame.stamp_ns = 0;
     frame.bits = 16;
     frame.source = spec_;
     frame.stem = stem_;
@@ -111,8 +115,8 @@ class InputChain final : public io::FrameSource {
 class MaskedSource final : public io::FrameSource {
  public:
   MaskedSource(std::unique_ptr<io::FrameSource> frames, const ValidityInput& validity,
-               Image<std::uint16_t> mask)
-      : frames_(std::move(frames)), validity_(validity), mask_(std::move(mask)) {}
+               const io::Crop& crop, Image<std::uint16_t> mask)
+      : frames_(std::move(frames)), validity_(validity), crop_(crop), mask_(std::move(mask)) {}
 
   Result<bool> next(io::SourceFrame& frame) override {
     if (ended_) {
@@ -122,31 +126,56 @@ class MaskedSource final : public io::FrameSource {
     if (!more || !*more) {
       return more;
     }
-    const int width = frame.counts.width();
-    const int height = frame.counts.height();
-    if (!mask_.empty() && (mask_.width() != width || mask_.height() != height)) {
+    const auto mask = mask_of(frame);
+    if (!mask) {
       ended_ = true;
-      return failure(ErrorCode::kInvalidArgument,
-                     fmt::format("--mask {}: {}x{} pixels; should be {}x{} as {}", validity_.mask,
-                                 mask_.width(), mask_.height(), width, height, frame.source));
+      return tl::unexpected(mask.error());
     }
-    frame.valid.resize(width, height);
-    for (int y = 0; y < height; ++y) {
-      for (int x = 0; x < width; ++x) {
-        const bool is_masked = !mask_.empty() && mask_(x, y) == 0;
-        const bool is_invalid = std::find(validity_.counts.begin(), validity_.counts.end(),
-                                          frame.counts(x, y)) != validity_.counts.end();
-        frame.valid(x, y) = is_masked || is_invalid ? 0 : 1;
-      }
-    }
+    mark_invalid(*mask, frame);
     return true;
   }
 
   [[nodiscard]] std::size_t size_hint() const override { return frames_->size_hint(); }
 
  private:
+  // The mask is that of the frames as they are used, or of the frames before they were cropped.
+  [[nodiscard]] Result<ImageView<const std::uint16_t>> mask_of(const io::SourceFrame& frame) const {
+    const ImageView<const std::uint16_t> mask = mask_;
+    const bool fits = mask.width() == frame.width() && mask.height() == frame.height();
+    if (mask.empty() || fits) {
+      return mask;
+    }
+    const auto part = crop_.within(mask.width(), mask.height());
+    if (part && part->width == frame.width() && part->height == frame.height()) {
+      return mask.crop(part->x, part->y, part->width, part->height);
+    }
+    return failure(
+        ErrorCode::kInvalidArgument,
+        fmt::format("--mask {}: {}x{} pixels; should be {}x{} as {}", validity_.mask, mask.width(),
+                    mask.height(), frame.width(), frame.height(), frame.source));
+  }
+
+  // Besides the pixels that the file itself has no number for.
+  void mark_invalid(ImageView<const std::uint16_t> mask, io::SourceFrame& frame) const {
+    if (frame.valid.empty()) {
+      frame.valid.resize(frame.width(), frame.height());
+      fill_pixels(frame.valid.view(), std::uint8_t{1});
+    }
+    for (int y = 0; y < frame.height(); ++y) {
+      for (int x = 0; x < frame.width(); ++x) {
+        const double value = frame.is_float() ? static_cast<double>(frame.values(x, y))
+                                              : static_cast<double>(frame.counts(x, y));
+        const bool is_masked = !mask.empty() && mask(x, y) == 0;
+        const bool is_invalid = std::find(validity_.counts.begin(), validity_.counts.end(),
+                                          value) != validity_.counts.end();
+        frame.valid(x, y) = is_masked || is_invalid ? std::uint8_t{0} : frame.valid(x, y);
+      }
+    }
+  }
+
   std::unique_ptr<io::FrameSource> frames_;
   ValidityInput validity_;
+  io::Crop crop_;
   Image<std::uint16_t> mask_;
   bool ended_ = false;
 };
@@ -168,7 +197,10 @@ Result<Image<std::uint16_t>> read_mask(const std::string& path) {
 Result<std::unique_ptr<io::FrameSource>> open_inputs(const std::vector<std::string>& inputs,
                                                      const io::SourceOptions& options,
                                                      const ValidityInput& validity) {
-  std::unique_ptr<io::FrameSource> frames = std::make_unique<InputChain>(inputs, options);
+  io::SourceOptions uncropped = options;
+  uncropped.crop = {};
+  std::unique_ptr<io::FrameSource> frames =
+      io::crop_frames(std::make_unique<InputChain>(inputs, uncropped), options.crop);
   if (validity.empty()) {
     return frames;
   }
@@ -181,7 +213,7 @@ Result<std::unique_ptr<io::FrameSource>> open_inputs(const std::vector<std::stri
     mask = std::move(*read);
   }
   return std::unique_ptr<io::FrameSource>(
-      std::make_unique<MaskedSource>(std::move(frames), validity, std::move(mask)));
+      std::make_unique<MaskedSource>(std::move(frames), validity, options.crop, std::move(mask)));
 }
 
 }  // namespace thermedge::cli

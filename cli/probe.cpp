@@ -56,10 +56,17 @@ int ProbeCommand::run() const {
         {ErrorCode::kInvalidArgument,
          fmt::format("-o {}: the name should end in .png, .svg or .pdf", common.output)});
   }
+  const InputFiles inputs = common.input_files(*source);
+  if (const Status status = inputs.check_file("-o", common.output).and_then([&] {
+        return inputs.check_file("--toml", toml);
+      });
+      !status) {
+    return report.fail(status.error());
+  }
   RecordingProbe recording(options);
   Image<std::uint16_t> first_frame;
-  const int exit_code =
-      for_each_frame(common, *source, report, [&](const io::SourceFrame& frame) -> Status {
+  const int exit_code = for_each_frame(
+      common, *source, report, Room::kMany, [&](const io::SourceFrame& frame) -> Status {
         if (first_frame.empty()) {
           first_frame = frame.counts.clone();
         }

@@ -32,10 +32,35 @@ const Kind* find_kind(std::string_view name) {
   return found == kKinds.end() ? nullptr : found;
 }
 
-// The kind of result that `-o x.ENDING` asks for; empty where the ending is unknown.
-std::string_view kind_of_file(const std::string& output) {
-  const std::string ending = std::filesystem::path(output).extension().string();
-  return ending == ".png" ? "mask" : ending == ".json" ? "json" : ending == ".svg" ? "svg" : "";
+constexpr std::array<std::string_view, 3> kFileEndings = {".png", ".json", ".svg"};
+
+// The kind of result that `-o x.ENDING` asks for.
+std::string kind_of_file(const std::string& ending) {
+  return ending == ".png" ? "mask" : ending.substr(1);
+}
+
+Status check_kinds(const std::vector<std::string>& kinds) {
+  for (const std::string& kind : kinds) {
+    if (find_kind(kind) == nullptr) {
+      return failure(ErrorCode::kInvalidArgument,
+                     fmt::format("--write {}: should be of mask, strength, labels, json, svg, "
+                                 "overlay, distance",
+                                 kind));
+    }
+  }
+  return {};
+}
+
+// Results of a directory lie in folders of it, one for each kind.
+Status check_directories(const std::string& output, const std::vector<std::string>& kinds,
+                         const InputFiles& inputs) {
+  Status status = inputs.check_directory("-o", output);
+  for (const std::string& kind : kinds) {
+    status = status.and_then([&] {
+      return inputs.check_directory("-o", (std::filesystem::path(output) / kind).string());
+    });
+  }
+  return status;
 }
 
 std::string summary(const Detection& detection, const std::string& source) {
@@ -51,37 +76,52 @@ std::string summary(const Detection& detection, const std::string& source) {
 
 }  // namespace
 
-ResultWriter::ResultWriter(Mode mode, std::string output, std::vector<std::string> kinds)
-    : mode_(mode), output_(std::move(output)), kinds_(std::move(kinds)), directory_(output_) {}
+ResultWriter::ResultWriter(Mode mode, std::string output, std::vector<std::string> kinds,
+                           const InputFiles& inputs)
+    : mode_(mode),
+      output_(std::move(output)),
+      kinds_(std::move(kinds)),
+      directory_(output_, inputs) {}
 
-Result<ResultWriter> ResultWriter::create(const std::string& output, const std::string& kinds) {
+Result<ResultWriter> ResultWriter::create(const std::string& output, const std::string& kinds,
+                                          const InputFiles& inputs) {
   std::vector<std::string> list = split_list(kinds);
-  for (const std::string& kind : list) {
-    if (find_kind(kind) == nullptr) {
-      return failure(ErrorCode::kInvalidArgument,
-                     fmt::format("--write {}: should be of mask, strength, labels, json, svg, "
-                                 "overlay, distance",
-                                 kind));
-    }
+  if (const Status status = check_kinds(list); !status) {
+    return tl::unexpected(status.error());
   }
-  if (output.empty() || output == "-") {
-    if (!list.empty()) {
-      return failure(ErrorCode::kInvalidArgument, "--write needs a directory: -o DIR");
-    }
-    return ResultWriter(output.empty() ? Mode::kSummary : Mode::kJsonLines, output, {});
+  const auto target = parse_output(output, kFileEndings);
+  if (!target) {
+    return tl::unexpected(target.error());
   }
-  if (list.empty() && !kind_of_file(output).empty()) {
-    return ResultWriter(Mode::kOneFile, output, {std::string(kind_of_file(output))});
+  switch (target->kind) {
+    case OutputKind::kNone:
+    case OutputKind::kStandardOutput:
+      if (!list.empty()) {
+        return failure(ErrorCode::kInvalidArgument, "--write needs a directory: -o DIR");
+      }
+      return ResultWriter(target->kind == OutputKind::kNone ? Mode::kSummary : Mode::kJsonLines,
+                          output, {}, inputs);
+    case OutputKind::kFile:
+      if (!list.empty()) {
+        return failure(ErrorCode::kInvalidArgument,
+                       fmt::format("-o {}: --write needs a directory: -o DIR", output));
+      }
+      return inputs.check_file("-o", output).map([&] {
+        return ResultWriter(Mode::kOneFile, output, {kind_of_file(target->ending)}, inputs);
+      });
+    case OutputKind::kDirectory:
+      break;
   }
   if (list.empty()) {
     list = {"mask"};
   }
-  return ResultWriter(Mode::kDirectory, output, std::move(list));
+  return check_directories(output, list, inputs).map([&] {
+    return ResultWriter(Mode::kDirectory, output, list, inputs);
+  });
 }
 
 Status ResultWriter::write(const Detection& detection, ImageView<const std::uint16_t> counts,
                            const std::string& source, const std::string& stem) {
-  ++written_;
   switch (mode_) {
     case Mode::kSummary:
       fmt::print("{}\n", summary(detection, source));
@@ -90,10 +130,6 @@ Status ResultWriter::write(const Detection& detection, ImageView<const std::uint
       fmt::print("{}", io::edges_to_json(detection, source));
       return {};
     case Mode::kOneFile:
-      if (written_ > 1) {
-        return failure(ErrorCode::kInvalidArgument,
-                       output_ + " holds the first frame; for several give -o DIR and --write");
-      }
       return write_kind(kinds_.front(), output_, detection, counts, source);
     case Mode::kDirectory:
       break;

@@ -21,9 +21,12 @@ namespace thermedge::cli {
 //   -o DIR --write mask,strength,labels,json,svg,overlay,distance   DIR/mask/<stem>.png ...
 class ResultWriter {
  public:
-  // Fails (a usage error) where `output` and `kinds` do not go together.
+  // Fails (a usage error) where `output` and `kinds` do not go together, or where an output is an
+  // input or the folder of one.
   [[nodiscard]] static Result<ResultWriter> create(const std::string& output,
-                                                   const std::string& kinds);
+                                                   const std::string& kinds,
+                                                   const InputFiles& inputs);
+  [[nodiscard]] Room room() const { return mode_ == Mode::kOneFile ? Room::kOne : Room::kMany; }
 
   // `counts`: what an overlay lies on; empty where there is no frame.
   [[nodiscard]] Status write(const Detection& detection, ImageView<const std::uint16_t> counts,
@@ -31,7 +34,8 @@ class ResultWriter {
 
  private:
   enum class Mode { kSummary, kJsonLines, kOneFile, kDirectory };
-  ResultWriter(Mode mode, std::string output, std::vector<std::string> kinds);
+  ResultWriter(Mode mode, std::string output, std::vector<std::string> kinds,
+               const InputFiles& inputs);
   [[nodiscard]] Status write_kind(const std::string& kind, const std::string& path,
                                   const Detection& detection, ImageView<const std::uint16_t> counts,
                                   const std::string& source);
@@ -40,7 +44,6 @@ class ResultWriter {
   std::string output_;
   std::vector<std::string> kinds_;
   OutputDirectory directory_;
-  std::size_t written_ = 0;
   Image<std::uint8_t> grey8_;
   Image<std::uint16_t> grey16_;
   Image<io::Rgb> colour_;

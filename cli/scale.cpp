@@ -28,8 +28,10 @@ struct ScaleCommand {
  private:
   [[nodiscard]] Status write(const io::SourceFrame& frame, ImageView<std::uint8_t> levels,
                              PictureOutput& output) const;
-  [[nodiscard]] int run_algorithm1(const io::SourceOptions& source, Console& report) const;
-  [[nodiscard]] int run_stable(const io::SourceOptions& source, Console& report) const;
+  [[nodiscard]] int run_algorithm1(const io::SourceOptions& source, Console& report,
+                                   PictureOutput& output) const;
+  [[nodiscard]] int run_stable(const io::SourceOptions& source, Console& report,
+                               PictureOutput& output) const;
 };
 
 Status ScaleCommand::write(const io::SourceFrame& frame, ImageView<std::uint8_t> levels,
@@ -39,22 +41,35 @@ Status ScaleCommand::write(const io::SourceFrame& frame, ImageView<std::uint8_t>
   });
 }
 
-int ScaleCommand::run_algorithm1(const io::SourceOptions& source, Console& report) const {
+// Of a float frame in degrees, gain is in levels a hundredth of a degree, as that of counts.
+GreyScaleOptions for_frame(GreyScaleOptions options, const io::SourceFrame& frame) {
+  constexpr double kCountsPerUnit = 100;
+  if (frame.is_float() && frame.scale.counts_per_unit != 1) {
+    options.gain *= kCountsPerUnit / frame.scale.counts_per_unit;
+  }
+  return options;
+}
+
+int ScaleCommand::run_algorithm1(const io::SourceOptions& source, Console& report,
+                                 PictureOutput& output) const {
   GreyScaleOptions options;
   options.gain = gain.value_or(options.gain);
   if (const Status status = options.check(); !status) {
     return report.fail(status.error());
   }
-  PictureOutput output(common.output);
   ClippingWarning clipping("--gain ", options.gain, "");
   Image<std::uint8_t> levels;
-  return for_each_frame(common, source, report, [&](const io::SourceFrame& frame) -> Status {
-    levels.resize(frame.counts.width(), frame.counts.height());
-    clipping.frame(frame.source, frame.counts, clipped_shares(frame.counts, options), report);
-    return scale_to_8bit(frame.counts, options, levels).and_then([&] {
-      return write(frame, levels, output);
-    });
-  });
+  return for_each_frame(
+      common, source, report, output.room(), [&](const io::SourceFrame& frame) -> Status {
+        const GreyScaleOptions scaled = for_frame(options, frame);
+        levels.resize(frame.width(), frame.height());
+        if (!frame.is_float()) {
+          clipping.frame(frame.source, frame.counts, clipped_shares(frame.counts, scaled), report);
+        }
+        return scale_to_8bit(frame.counts, scaled, levels).and_then([&] {
+          return write(frame, levels, output);
+        });
+      });
 }
 
 std::string_view event_name(GreyScaleEvent event) {
@@ -84,21 +99,25 @@ std::string state_line(const io::SourceFrame& frame, std::int64_t index,
 }
 
 // The scale of each frame is written even where some frames were bad.
-int ScaleCommand::run_stable(const io::SourceOptions& source, Console& report) const {
+int ScaleCommand::run_stable(const io::SourceOptions& source, Console& report,
+                             PictureOutput& output) const {
   StableGreyScaleOptions options = view;
   options.gain = gain.value_or(options.gain);
   if (const Status status = check_options(options); !status) {
     return report.fail(status.error());
   }
-  PictureOutput output(common.output);
+  const auto state_file = output.beside("scale.jsonl");
+  if (!state_file) {
+    return report.fail(state_file.error());
+  }
   StableGreyScale stable_grey_scale(options);
   std::optional<ClippingWarning> clipping;  // of the gain that the first frame has chosen
   Image<std::uint8_t> levels;
   std::string lines;
   std::int64_t index = 0;
-  const int code =
-      for_each_frame(common, source, report, [&](const io::SourceFrame& frame) -> Status {
-        levels.resize(frame.counts.width(), frame.counts.height());
+  const int code = for_each_frame(
+      common, source, report, output.room(), [&](const io::SourceFrame& frame) -> Status {
+        levels.resize(frame.width(), frame.height());
         return stable_grey_scale.run(frame.counts, levels)
             .and_then([&](const GreyScaleState& state) {
               lines += state_line(frame, index++, state);
@@ -110,7 +129,7 @@ int ScaleCommand::run_stable(const io::SourceOptions& source, Console& report) c
               return write(frame, levels, output);
             });
       });
-  const Status status = io::write_file(output.beside("scale.jsonl"), lines);
+  const Status status = io::write_file(*state_file, lines);
   return status ? code : report.fail(status.error());
 }
 
@@ -120,7 +139,11 @@ int ScaleCommand::run() const {
   if (!source) {
     return report.fail(source.error());
   }
-  return stable ? run_stable(*source, report) : run_algorithm1(*source, report);
+  auto output = PictureOutput::create(common.output, common.input_files(*source));
+  if (!output) {
+    return report.fail(output.error());
+  }
+  return stable ? run_stable(*source, report, *output) : run_algorithm1(*source, report, *output);
 }
 
 }  // namespace

@@ -17,6 +17,9 @@ namespace {
 
 constexpr std::array<std::string_view, 4> kKinds = {"counts", "clean", "truth", "depth"};
 
+constexpr const char* kTruthFile = "truth.jsonl";
+constexpr const char* kTrajectoryFile = "trajectory.txt";
+
 struct SimulateCommand : RunOptions {
   std::string scene;
   std::string output;
@@ -34,6 +37,7 @@ struct SimulateCommand : RunOptions {
     return std::find(kinds.begin(), kinds.end(), kind) != kinds.end();
   }
   [[nodiscard]] Result<sim::SceneOptions> options() const;
+  [[nodiscard]] Status check_output() const;
   [[nodiscard]] int run() const;
   [[nodiscard]] Status write_frame(const sim::TrueFrame& frame, OutputDirectory& directory) const;
   [[nodiscard]] Status write_all(sim::Renderer& renderer, Console& report) const;
@@ -125,9 +129,22 @@ Status SimulateCommand::write_all(sim::Renderer& renderer, Console& report) cons
   std::error_code error;  // shows again, with its reason, when the files are written
   std::filesystem::create_directories(output, error);
   const std::filesystem::path folder(output);
-  return io::write_file((folder / "truth.jsonl").string(), truth).and_then([&] {
-    return io::write_file((folder / "trajectory.txt").string(), trajectory);
+  return io::write_file((folder / kTruthFile).string(), truth).and_then([&] {
+    return io::write_file((folder / kTrajectoryFile).string(), trajectory);
   });
+}
+
+// The scene may be a file. It may lie in the directory, whose folders have the pictures, but must
+// not be one of the files there.
+Status SimulateCommand::check_output() const {
+  InputFiles inputs;
+  inputs.add(scene);
+  const auto in_output = [&](const char* name) {
+    return inputs.check_file("-o", (std::filesystem::path(output) / name).string());
+  };
+  return parse_output(output, {})
+      .and_then([&](const OutputTarget&) { return in_output(kTruthFile); })
+      .and_then([&] { return in_output(kTrajectoryFile); });
 }
 
 int SimulateCommand::run() const {
@@ -137,6 +154,9 @@ int SimulateCommand::run() const {
       report.error("--write " + kind + ": should be some of counts, clean, truth, depth");
       return kBadUsage;
     }
+  }
+  if (const Status status = check_output(); !status) {
+    return report.fail(status.error());
   }
   auto renderer = options().and_then(sim::Renderer::create);
   if (!renderer) {

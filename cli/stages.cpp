@@ -29,7 +29,8 @@ Status write(const figures::StagesFigures& made, FigureOutput& output) {
 
 int StagesCommand::draw() const {
   return run([&](const DetectorOptions& options, const io::SourceOptions& source, Console& report) {
-    auto output = FigureOutput::create(common, format);
+    auto output =
+        FigureOutput::create(common.output, format, common.input_files(source, {config.file}));
     if (!output) {
       return report.fail(output.error());
     }
@@ -37,12 +38,12 @@ int StagesCommand::draw() const {
     if (!sheet) {
       return report.fail(sheet.error());
     }
-    return for_each_frame(common, source, report, [&](const io::SourceFrame& frame) {
-      return output->begin_frame(frame.stem)
-          .and_then(
-              [&] { return sheet->draw(frame.counts, frame.bits, frame.source, frame.valid); })
-          .and_then([&](const figures::StagesFigures& made) { return write(made, *output); });
-    });
+    return for_each_frame(
+        common, source, report, output->room(), [&](const io::SourceFrame& frame) {
+          output->begin_frame(frame.stem);
+          return sheet->draw(frame.counts, frame.bits, frame.source, frame.valid)
+              .and_then([&](const figures::StagesFigures& made) { return write(made, *output); });
+        });
   });
 }
 

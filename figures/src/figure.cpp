@@ -6,10 +6,10 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <filesystem>
 #include <new>
 
 #include "canvas.hpp"
+#include "thermedge/io/files.hpp"
 #include "thermedge/io/write.hpp"
 
 namespace thermedge::figures {
@@ -97,10 +97,6 @@ Result<std::string> encode_vectors(cairo_surface_t* recording, double width, dou
   return check(status).map([&] { return bytes; });
 }
 
-std::string ending_of(std::string_view path) {
-  return std::filesystem::path(path).extension().string();
-}
-
 }  // namespace
 
 struct Figure::Recording {
@@ -140,17 +136,18 @@ Status Figure::write(const std::string& path) const {
     error.message = path + ": " + error.message;
     return error;
   };
-  if (ending_of(path) == ".png") {
+  if (io::ending_of(std::string(path)) == ".png") {
     return rasterise().map_error(with_path).and_then(
         [&](const Image<io::Rgb>& picture) { return io::write_picture(path, picture.view()); });
   }
-  return encode_vectors(recording_->surface.get(), width_, height_, ending_of(path) == ".pdf")
+  return encode_vectors(recording_->surface.get(), width_, height_,
+                        io::ending_of(std::string(path)) == ".pdf")
       .map_error(with_path)
       .and_then([&](const std::string& bytes) { return io::write_file(path, bytes); });
 }
 
 bool is_figure_path(std::string_view path) {
-  const std::string ending = ending_of(path);
+  const std::string ending = io::ending_of(std::string(path));
   return ending == ".png" || ending == ".svg" || ending == ".pdf";
 }
 

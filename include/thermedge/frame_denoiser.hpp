@@ -49,6 +49,10 @@ class FrameDenoiser {
   [[nodiscard]] Result<ImageView<const std::uint16_t>> run(const Frame& frame,
                                                            ParallelRunner& runner);
 
+  // The same without rounding and in the unit of the frame, into `out` of its size: what a float
+  // frame becomes.
+  void copy_values(ImageView<float> out) const;
+
   // Noise, bad pixels and stripes of the last frame.
   [[nodiscard]] const Corrections& corrections() const { return corrections_; }
 

@@ -3,22 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
-#include <span>
-
-#include "order_statistics.hpp"
+#include <functional>
 
 namespace thermedge {
-namespace {
-
-constexpr double kMostCounts = std::numeric_limits<std::uint16_t>::max();
-
-bool is_count(float value) {
-  return value >= 0 && value <= static_cast<float>(kMostCounts) && std::floor(value) == value;
-}
-
-}  // namespace
-
 ImageView<const std::uint16_t> Preprocessor::run(const Frame& frame, ParallelRunner& runner,
                                                  Corrections& corrections) {
   corrected_.resize(frame.width(), frame.height());
@@ -40,6 +27,7 @@ ImageView<const std::uint16_t> Preprocessor::run(const Frame& frame, ParallelRun
     stripe_finder_.measure(corrected_, sigma_counts, runner, corrections.stripes);
     remove_stripes(corrections.stripes, corrected_);
   }
+  forget_fractions(corrections.bad_pixels);
   return corrected_;
 }
 
@@ -61,6 +49,7 @@ void Preprocessor::measure_noise(ParallelRunner& runner, Corrections& correction
 void Preprocessor::load(const Frame& frame, Corrections& corrections) {
   corrections.counts_per_unit = 1;
   corrections.offset = 0;
+  fractions_.resize(0, 0);
   if (const auto* levels = std::get_if<ImageView<const std::uint8_t>>(&frame.pixels)) {
     copy_pixels(*levels, corrected_.view());
   } else if (const auto* counts = std::get_if<ImageView<const std::uint16_t>>(&frame.pixels)) {
@@ -72,49 +61,41 @@ void Preprocessor::load(const Frame& frame, Corrections& corrections) {
 
 // Pixels that are not finite are filled afterwards.
 void Preprocessor::load_values(ImageView<const float> values, Corrections& corrections) {
-  bool are_counts = true;
-  for (int y = 0; y < values.height() && are_counts; ++y) {
-    are_counts = std::all_of(values.row(y), values.row(y) + values.width(),
-                             [](float value) { return is_count(value) || !std::isfinite(value); });
-  }
-  if (!are_counts) {
-    choose_scale(values, corrections);
-  }
+  const FloatScale scale = scale_chooser_.choose(values);
+  corrections.counts_per_unit = scale.counts_per_unit;
+  corrections.offset = scale.offset;
+  to_counts(values, scale, corrected_);
+  fractions_.resize(values.width(), values.height());
   for (int y = 0; y < values.height(); ++y) {
-    std::transform(
-        values.row(y), values.row(y) + values.width(), corrected_.row(y), [&](float value) {
-          const double count =
-              (static_cast<double>(value) - corrections.offset) * corrections.counts_per_unit;
-          return std::isfinite(value)
-                     ? static_cast<std::uint16_t>(std::clamp(count, 0.0, kMostCounts) + 0.5)
-                     : std::uint16_t{0};
-        });
+    std::transform(values.row(y), values.row(y) + values.width(), corrected_.row(y),
+                   fractions_.row(y), [&](float value, std::uint16_t count) {
+                     const double fraction = scale.to_count(value) - count;
+                     return std::abs(fraction) <= 0.5 ? static_cast<float>(fraction) : 0.0F;
+                   });
   }
 }
 
-// A power of two, so that no precision is lost and frames of a sequence keep the same scale.
-void Preprocessor::choose_scale(ImageView<const float> values, Corrections& corrections) {
-  constexpr double kTail = 0.001;
-  constexpr double kSpanCounts = 16384;
-  constexpr double kMiddleCounts = 32768;
-  sample_.clear();
-  sample_.reserve(values.size());
-  for (int y = 0; y < values.height(); ++y) {
-    std::copy_if(values.row(y), values.row(y) + values.width(), std::back_inserter(sample_),
-                 [](float value) { return std::isfinite(value); });
+void Preprocessor::copy_corrected(ImageView<float> out) const {
+  copy_pixels(corrected_.view(), out);
+  for (int y = 0; y < fractions_.height(); ++y) {
+    std::transform(fractions_.row(y), fractions_.row(y) + out.width(), out.row(y), out.row(y),
+                   std::plus<>());
   }
-  if (sample_.empty()) {
+}
+
+// Pixels that were replaced have no value of their own.
+void Preprocessor::forget_fractions(const std::vector<BadPixel>& replaced) {
+  if (fractions_.empty()) {
     return;
   }
-  const auto quantile = [&](double share) {
-    const auto rank = static_cast<std::size_t>(share * static_cast<double>(sample_.size() - 1));
-    return static_cast<double>(detail::nth_value(std::span(sample_), rank));
-  };
-  const double low = quantile(kTail);
-  const double high = quantile(1 - kTail);
-  const double span = high > low ? high - low : 1;
-  corrections.counts_per_unit = std::exp2(std::floor(std::log2(kSpanCounts / span)));
-  corrections.offset = (low + high) / 2 - kMiddleCounts / corrections.counts_per_unit;
+  for (int y = 0; y < fractions_.height(); ++y) {
+    std::transform(fractions_.row(y), fractions_.row(y) + fractions_.width(), valid_.row(y),
+                   fractions_.row(y),
+                   [](float fraction, std::uint8_t valid) { return valid != 0 ? fraction : 0.0F; });
+  }
+  for (const BadPixel& pixel : replaced) {
+    fractions_(pixel.x, pixel.y) = 0;
+  }
 }
 
 void Preprocessor::note_validity(const Frame& frame, InvalidPixels& invalid) {

@@ -1,5 +1,6 @@
 #include "thermedge/frame_denoiser.hpp"
 
+#include <algorithm>
 #include <new>
 
 #include "try.hpp"
@@ -35,7 +36,8 @@ Result<ImageView<const std::uint16_t>> FrameDenoiser::run(const Frame& frame,
   try {
     working_.resize(frame.width(), frame.height());
     counts_.resize(frame.width(), frame.height());
-    copy_pixels(preprocessor_.run(frame, runner, corrections_), working_.view());
+    preprocessor_.run(frame, runner, corrections_);
+    preprocessor_.copy_corrected(working_);
     const double told = options_.denoise.sigma_counts * corrections_.counts_per_unit;
     const double pixels = corrections_.noise.sigma_counts;
     const bool is_smooth = corrections_.noise_model.level_counts > kSmoothNoise * pixels;
@@ -48,6 +50,15 @@ Result<ImageView<const std::uint16_t>> FrameDenoiser::run(const Frame& frame,
   }
   round_to_counts(working_, counts_);
   return ImageView<const std::uint16_t>(counts_.view());
+}
+
+void FrameDenoiser::copy_values(ImageView<float> out) const {
+  const FloatScale scale{corrections_.counts_per_unit, corrections_.offset};
+  for (int y = 0; y < out.height(); ++y) {
+    std::transform(working_.row(y), working_.row(y) + out.width(), out.row(y), [&](float count) {
+      return static_cast<float>(scale.to_value(static_cast<double>(count)));
+    });
+  }
 }
 
 }  // namespace thermedge

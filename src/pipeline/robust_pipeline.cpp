@@ -133,7 +133,7 @@ double RobustPipeline::usual_contrast() {
 
 Status RobustPipeline::denoise(ParallelRunner& runner, Detection& found) {
   denoised_.resize(found.width, found.height);
-  copy_pixels(counts_, denoised_.view());
+  preprocessor_.copy_corrected(denoised_);
   const NoiseModel& noise = noise_to_mind(found);
   return denoiser_.run_measured(denoised_, noise, denoised_, runner, noise_.noisiness).map([&] {
     even_ = even_out(noise.map);

@@ -169,6 +169,31 @@ Result<CountsModel> CountsModel::create(const PlanckResponse& response) {
   return CountsModel(response);
 }
 
+// S' = e S + (1 - e) S_r gives R2' = R2 / e and O' = e O - (1 - e) S_r.
+Result<PlanckResponse> grey_body_response(const PlanckResponse& response, double emissivity,
+                                          double reflected_degc) {
+  if (!(emissivity > 0) || emissivity > 1) {
+    return failure(ErrorCode::kInvalidArgument,
+                   "emissivity " + std::to_string(emissivity) + ": should be above 0, at most 1");
+  }
+  if (emissivity == 1) {
+    return response;
+  }
+  return CountsModel::create(response).and_then(
+      [&](const CountsModel& model) -> Result<PlanckResponse> {
+        const double reflected = model.to_counts(reflected_degc);
+        if (!std::isfinite(reflected)) {
+          return failure(ErrorCode::kInvalidArgument, "reflected temperature " +
+                                                          std::to_string(reflected_degc) +
+                                                          " degC: the camera has no counts for it");
+        }
+        PlanckResponse grey = response;
+        grey.r2 = response.r2 / emissivity;
+        grey.o = emissivity * response.o - (1 - emissivity) * reflected;
+        return grey;
+      });
+}
+
 double CountsModel::to_degc(double counts) const {
   if (const auto* linear = std::get_if<LinearResponse>(&response_)) {
     return counts * linear->degc_per_count + linear->degc_at_zero;

@@ -186,7 +186,7 @@ TEST(Decoder, SaysWhatItRefuses) {
   for (const Refused& refused : {
            Refused{"", "file: the file is empty"},
            Refused{"hello", "file: not a picture"},
-           Refused{"\xff\xd8\xff\xe0", "file: a JPEG picture; not a picture that thermedge reads"},
+           Refused{"\xff\xd8\xff\xe0", "file: a JPEG picture without raw counts"},
            Refused{"RIFF1234AVI ", "file: an AVI video; pipe it in: ffmpeg -i FILE"},
            Refused{"P5\n0 4\n255\n", "file: the picture has no pixels (0x4)"},
            Refused{"P5\n99999 4\n255\n", "file: 99999x4 is larger than 16384 pixels a side"},
@@ -194,8 +194,7 @@ TEST(Decoder, SaysWhatItRefuses) {
            Refused{"P5\n4 4\n65536\n", "file: damaged PGM"},
            Refused{"P5\n4 4\n255\n123", "file: damaged PGM: the file ends early"},
            Refused{"P2\n2 1\n255\n1 256", "file: damaged PGM: a pixel is above the maximum"},
-           Refused{npy("<f4", "False", "(1, 1)", "1234"),
-                   "file: an NPY of '<f4'; frames are uint8 or uint16"},
+           Refused{npy("<c8", "False", "(1, 1)", "12345678"), "file: an NPY of '<c8'; frames are"},
            Refused{npy("|u1", "False", "(4,)", "1234"), "file: an NPY of 1 dimensions"},
            Refused{npy("|u1", "False", "(-1, 4)", "1234"), "file: damaged NPY: its shape"},
            Refused{npy("|u1", "False", "(2, 4)", "1234"), "file: damaged NPY: the file ends early"},

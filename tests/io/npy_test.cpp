@@ -85,15 +85,16 @@ TEST(NpyHeader, OtherThingsAreErrors) {
             "file: the picture has no pixels (2x0)"},
            {"{'descr': '<u2', 'fortran_order': False, 'shape': (0, 1, 2)}",
             "file: damaged NPY: a stack without frames"},
-           {"{'descr': '<i2', 'fortran_order': False, 'shape': (1, 2)}",
-            "file: an NPY of '<i2'; frames are uint8 or uint16"},
+           {"{'descr': '<f1', 'fortran_order': False, 'shape': (1, 2)}",
+            "file: an NPY of '<f1'; frames are whole numbers or floats of 8 to 64 bits"},
            {"{'descr': '\x1b[2J\n', 'fortran_order': False, 'shape': (1, 2)}",
-            "file: an NPY of '?[2J?'; frames are uint8 or uint16"},
+            "file: an NPY of '?[2J?'; frames are whole numbers or floats of 8 to 64 bits"},
            {"{'descr': '<u2', 'fortran_order': False, 'shape': ()}",
             "file: an NPY of 0 dimensions; frames have 2, stacks of frames 3"},
            {"{'descr': '|u1', 'fortran_order': False, 'shape': (48, 64, 3)}",
-            "file: an NPY with its channels last; a frame is (height, width), a stack "
-            "(frames, height, width)"},
+            "file: an NPY of shape (48, 64, 3), which looks like (height, width, frames or "
+            "channels); a stack is (frames, height, width): numpy.save(FILE, numpy.moveaxis(a, -1, "
+            "0)) makes it (3, 48, 64)"},
        }) {
     EXPECT_EQ(error_of(decoded(npy_file(header, "\x01\x02\x03\x04"))), error) << header;
   }

@@ -142,7 +142,8 @@ TEST(StandardInputFrames, ThatEndEarlyAreAnError) {
                "", "standard input: empty; there should be frames of 4 bytes (2x2, 8 bits)"},
            {"abcdefg",
             "standard input: 3 bytes are left over after 1 frames of 4 bytes (2x2, 8 bits); do "
-            "--raw-size and --raw-format fit?"},
+            "--raw-size and --raw-format fit, and is there a header (--raw-header, "
+            "--raw-frame-header)?"},
        }) {
     StandardInput input;
     input.write(text);
@@ -185,7 +186,7 @@ TEST(Inputs, BadFilesDoNotStopThoseBehindThem) {
   EXPECT_EQ(letters({directory.path().string()}), "ab!!!f") << "no size for the raw file";
 }
 
-TEST(Inputs, AMultiPageFileEndsAtItsBadPage) {
+TEST(Inputs, PagesAfterABadOneAreRead) {
   const TemporaryDirectory directory;
   test::TiffWriter writer(true, false);
   test::TiffPage page;
@@ -201,8 +202,8 @@ TEST(Inputs, AMultiPageFileEndsAtItsBadPage) {
   write_text(directory / "2.pgm", pixel('b'));
   const auto source = open_files({directory / "*"}, {});
   ASSERT_TRUE(source) << source.error().message;
-  EXPECT_EQ(letters(**source), "a!b");
-  EXPECT_EQ((*source)->size_hint(), 3U);
+  EXPECT_EQ(letters(**source), "a!ab") << "the pages after a bad one are read";
+  EXPECT_EQ((*source)->size_hint(), 4U);
 }
 
 TEST(Inputs, GlobsMatchDirectoriesToo) {
@@ -279,13 +280,15 @@ TEST(Kinds, ThatPeopleTryAreNamed) {
   const TemporaryDirectory directory;
   const std::string path = directory / "x.png";
   for (const auto& [bytes, says] : {
-           std::pair<std::string, std::string>{"\xff\xd8\xff\xe0", "a JPEG picture; not a picture"},
+           std::pair<std::string, std::string>{"\xff\xd8\xff\xe0",
+                                               "a JPEG picture without raw counts"},
            {"BM123456", "a BMP picture; not a picture"},
            {"GIF89a", "a GIF picture; not a picture"},
            {std::string("\0\0\0\x18", 4) + "ftypmp42", "an MP4 or MOV video; pipe it in: ffmpeg"},
            {"RIFF1234AVI LIST", "an AVI video; pipe it in: ffmpeg"},
-           {"P5x", "not a picture that thermedge reads (PNG, TIFF, PGM, NPY; .raw by name)"},
-           {std::string("FFF\0x", 5), "a FLIR recording; its raw counts become a picture with"},
+           {"P5x",
+            "not a picture that thermedge reads (PNG, TIFF, PGM, NPY, FLIR JPEG, FFF and SEQ)"},
+           {std::string("FFF\0x", 5), "damaged FLIR file: its header is not one of an FFF"},
        }) {
     write_text(path, bytes);
     const auto frame = read_picture(path);

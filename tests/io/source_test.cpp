@@ -84,9 +84,12 @@ TEST(Source, NamesWhatIsNotThere) {
   const TemporaryDirectory directory;
   EXPECT_EQ(read_all({directory / "x.png"}).errors,
             std::vector{(directory / "x.png") + ": no such file or directory"});
-  EXPECT_EQ(read_all({directory.path().string()}).errors,
-            std::vector{directory.path().string() +
-                        ": no pictures in this directory (PNG, TIFF, PGM, NPY, .raw)"});
+  EXPECT_EQ(
+      read_all({directory.path().string()}).errors,
+      std::vector{
+          directory.path().string() +
+          ": no pictures in this directory (PNG, TIFF, PGM, NPY, FLIR JPEG, FFF and SEQ, .raw; "
+          "with --raw-size .bin and .dat, too)"});
   const auto device = read_all({"/dev/null"});
   ASSERT_EQ(device.errors.size(), 1U);
   EXPECT_TRUE(device.errors[0].starts_with("/dev/null: a device; pipe a camera in: ffmpeg"));

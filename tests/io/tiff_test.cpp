@@ -157,13 +157,15 @@ TEST(Tiff, SaysWhatItRefuses) {
   EXPECT_EQ(refusal(test::kPhotometric, 2),
             "file: a colour picture; frames have a single channel (grey)");
   EXPECT_EQ(refusal(test::kChannels, 2),
-            "file: a TIFF of 2 channels; frames have a single one (grey)");
-  EXPECT_EQ(refusal(test::kBits, 32), "file: a TIFF of 32 bits; frames have 8 or 16 unsigned bits");
+            "file: a TIFF page of 2 channels; frames have a single one (grey)");
   EXPECT_EQ(
-      refusal(test::kSampleFormat, 2),
-      "file: a TIFF of 8 bits, not unsigned whole numbers; frames have 8 or 16 unsigned bits");
+      refusal(test::kBits, 12),
+      "file: a TIFF page of 12 bits; frames are whole numbers of 8, 16 or 32 bits or floats of "
+      "16, 32 or 64");
+  EXPECT_TRUE(
+      refusal(test::kSampleFormat, 3).starts_with("file: a TIFF page of 8 bits; frames are"));
   EXPECT_EQ(refusal(test::kCompression, 7),
-            "file: a TIFF with compression 7; none, LZW, deflate and PackBits are read");
+            "file: a TIFF page with compression 7; none, LZW, deflate and PackBits are read");
 }
 
 TEST(Tiff, PagesMayDiffer) {
@@ -237,7 +239,7 @@ TEST(Tiff, AbsurdHeadersAreErrors) {
 
 TEST(Tiff, NoPagesIsAnError) {
   EXPECT_EQ(error_of(decoded(TiffWriter(false, false).file())),
-            "file: has no page 0 (the first is 0)");
+            "file: damaged TIFF: it has no pages");
   EXPECT_FALSE(count_pages(std::as_bytes(std::span(TiffWriter(true, true).file())), "file", {}));
 }
 

@@ -170,6 +170,25 @@ TEST(CountsModel, PlanckOfAFlirCamera) {
   EXPECT_TRUE(std::isnan(model->to_counts(-300)));
 }
 
+// What the camera sees of an object of emissivity e is e of it and the rest of its surroundings.
+TEST(GreyBody, IsACameraOfItsOwn) {
+  const PlanckResponse response{14906.216, 1396.5, 1, -7261, 0.010956882};
+  const auto black = CountsModel::create(response);
+  const auto grey = grey_body_response(response, 0.8, 25).and_then([](const PlanckResponse& r) {
+    return CountsModel::create(r);
+  });
+  ASSERT_TRUE(black && grey);
+  for (const double degc : {-20.0, 25.0, 80.0, 400.0}) {
+    const double seen = 0.8 * black->to_counts(degc) + 0.2 * black->to_counts(25);
+    EXPECT_NEAR(grey->to_degc(seen), degc, 1e-6);
+  }
+  EXPECT_EQ(grey_body_response(response, 1, -1000)->o, response.o) << "it reflects nothing";
+  for (const double emissivity : {0.0, -0.5, 1.01, std::nan("")}) {
+    EXPECT_FALSE(grey_body_response(response, emissivity, 20)) << emissivity;
+  }
+  EXPECT_FALSE(grey_body_response(response, 0.5, -300)) << "below absolute zero";
+}
+
 TEST(CountsModel, RefusesWhatIsNoModel) {
   for (const std::string text :
        {"", "magic", "linear:", "linear:0.01", "linear:0,1", "linear:-1,0", "linear:0.01,0,3",

@@ -33,7 +33,9 @@ namespace thermedge::io {
 
 // The files that an input stands for: itself; the pictures in a directory; the matches of a glob,
 // directories among them again for their pictures. Directories and globs come in natural order.
-// Errors: nothing there.
-[[nodiscard]] Result<std::vector<std::string>> expand_input(const std::string& input);
+// `with_raw`: files in directories that end like frames without a header (.bin, .dat ...) are
+// pictures, too. Errors: nothing there.
+[[nodiscard]] Result<std::vector<std::string>> expand_input(const std::string& input,
+                                                            bool with_raw = false);
 
 }  // namespace thermedge::io

@@ -24,6 +24,9 @@ struct Rgb {
 [[nodiscard]] Status write_picture(const std::string& path, ImageView<const std::uint8_t> picture);
 [[nodiscard]] Status write_picture(const std::string& path, ImageView<const std::uint16_t> picture);
 
+// Float values: .tif/.tiff, .npy, .raw.
+[[nodiscard]] Status write_picture(const std::string& path, ImageView<const float> picture);
+
 // Colour, PNG only.
 [[nodiscard]] Status write_picture(const std::string& path, ImageView<const Rgb> picture);
 

@@ -59,6 +59,13 @@ struct PlanckResponse {
   double r1 = 0, b = 0, f = 1, o = 0, r2 = 1;
 };
 
+// The same camera before an object of this emissivity that reflects surroundings of this
+// temperature: counts = e * counts(T) + (1 - e) * counts(reflected), without the atmosphere in
+// between. Again of Planck's form. Fails where the emissivity is not above 0 and at most 1, or
+// where the camera has no counts for the reflected temperature.
+[[nodiscard]] Result<PlanckResponse> grey_body_response(const PlanckResponse& response,
+                                                        double emissivity, double reflected_degc);
+
 // How counts and degrees belong together. A value; thread-safe.
 class CountsModel {
  public:

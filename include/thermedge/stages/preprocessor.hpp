@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "thermedge/float_scale.hpp"
 #include "thermedge/frame.hpp"
 #include "thermedge/image.hpp"
 #include "thermedge/memory.hpp"
@@ -34,9 +35,8 @@ struct Corrections {
 // found (InvalidFinder), are filled smoothly (HoleFiller), noise is measured, bad pixels are
 // replaced, stripes removed.
 //
-// Float frames whose pixels are whole numbers from 0 to 65535 are counts already. In others the
-// 0.1st to 99.9th percentile is spread over 8192 to 16384 counts by a power of two, with room for
-// as much again on both sides; what lies beyond is clamped.
+// Float frames are scaled by FloatScaleChooser. Stages that look at integers see the rounded
+// counts; copy_corrected gives denoisers and filters what rounding left out, too.
 //
 // The one front end of detector, `thermedge denoise`, sheets and benchmarks. One object per thread;
 // allocates on the first frame of a size only. The same result for every ParallelRunner and SIMD
@@ -55,20 +55,24 @@ class Preprocessor {
   ImageView<const std::uint16_t> run(const Frame& frame, ParallelRunner& runner,
                                      Corrections& corrections);
 
+  // The corrected counts of the last frame, of a float frame with the fractions that rounding left
+  // out. `out` has the size of the frame.
+  void copy_corrected(ImageView<float> out) const;
+
   // Nonzero where the last frame was a measurement; empty where it was everywhere.
   [[nodiscard]] ImageView<const std::uint8_t> valid() const { return valid_view_; }
 
   // Memory held, bytes.
   [[nodiscard]] std::size_t memory_bytes() const {
     return detail::memory_of(noise_estimator_, model_estimator_, stripe_finder_, invalid_finder_,
-                             hole_filler_, corrected_, valid_, sample_);
+                             hole_filler_, scale_chooser_, corrected_, fractions_, valid_);
   }
 
  private:
   void measure_noise(ParallelRunner& runner, Corrections& corrections);
   void load(const Frame& frame, Corrections& corrections);
   void load_values(ImageView<const float> values, Corrections& corrections);
-  void choose_scale(ImageView<const float> values, Corrections& corrections);
+  void forget_fractions(const std::vector<BadPixel>& replaced);
   void note_validity(const Frame& frame, InvalidPixels& invalid);
   void fill_invalid(InvalidPixels& invalid);
   [[nodiscard]] std::int64_t count_invalid() const;
@@ -82,10 +86,11 @@ class Preprocessor {
   NoiseModelEstimator model_estimator_;
   StripeFinder stripe_finder_;
   HoleFiller hole_filler_;
+  FloatScaleChooser scale_chooser_;
   Image<std::uint16_t> corrected_;
+  Image<float> fractions_;  // of a float frame: exact count less the rounded one
   Image<std::uint8_t> valid_;
   ImageView<const std::uint8_t> valid_view_;
-  std::vector<float> sample_;
 };
 
 }  // namespace thermedge

@@ -1,4 +1,4 @@
-// The picture formats, one decoder and one encoder each, on bytes in memory.
+// What the picture formats share: encoded files, messages about them, and the encoders.
 #pragma once
 
 #include <cstddef>
@@ -18,21 +18,14 @@ namespace thermedge::io {
 
 using Bytes = std::span<const std::byte>;
 
-// The input of a decoder: the bytes, the name for messages, the bounds.
+// The input of a decoder: the bytes, the name for messages, the bounds, and how samples of more
+// than one byte are read.
 struct EncodedFile {
   Bytes bytes;
   const std::string& name;
   const Limits& limits;
+  SampleOrder order = SampleOrder::kAsFormat;
 };
-
-// Decoders check the size against the limits before they allocate and fill `counts` and `bits` of
-// the frame. A file that ends early, or whose checksums do not match, is an error.
-[[nodiscard]] Status decode_png(const EncodedFile& file, SourceFrame& frame);
-[[nodiscard]] Status decode_pgm(const EncodedFile& file, SourceFrame& frame);
-[[nodiscard]] Status decode_tiff(const EncodedFile& file, std::size_t page, SourceFrame& frame);
-[[nodiscard]] Status decode_npy(const EncodedFile& file, std::size_t page, SourceFrame& frame);
-[[nodiscard]] Result<std::size_t> count_tiff_pages(const EncodedFile& file);
-[[nodiscard]] Result<std::size_t> count_npy_pages(const EncodedFile& file);
 
 // Checks what a header claims: the size against the limits, for pixels that take
 // `bytes_per_pixel` on the way to counts, and that a file of so few bytes can hold it.
@@ -42,12 +35,17 @@ struct EncodedFile {
 // Words out of a file, fit for a message: one line, and no commands to a terminal.
 [[nodiscard]] std::string printable(std::string_view text);
 
+// "NAME: N bytes are left over after WHAT": no picture, and nothing else that is known.
+[[nodiscard]] tl::unexpected<Error> left_over(const EncodedFile& file, std::size_t bytes,
+                                              std::string_view what);
+
 // "NAME: damaged FORMAT: what", of which `what` may come from the file.
 [[nodiscard]] tl::unexpected<Error> damaged(const EncodedFile& file, std::string_view format,
                                             std::string_view what);
 [[nodiscard]] tl::unexpected<Error> no_such_page(const EncodedFile& file, std::size_t page);
 
-// A picture to encode: rows of `channels` samples of `bits` bits (8 or 16, native byte order).
+// A picture to encode: rows of `channels` samples of `bits` bits in native byte order: whole
+// numbers of 8 or 16 bits, or floats of 32.
 struct Samples {
   const void* data = nullptr;
   std::size_t row_bytes = 0;  // distance between rows in memory
@@ -70,10 +68,9 @@ struct Samples {
 [[nodiscard]] std::string encode_pgm(const Samples& samples);
 [[nodiscard]] std::string encode_npy(const Samples& samples);
 
-enum class ByteOrder { kLittle, kBig };
+enum class ByteOrder : std::uint8_t { kLittle, kBig };
 
-// Packed samples of 8 or 16 bits to and from the byte order of a file.
-void unpack_samples(Bytes packed, int bits, ByteOrder order, SourceFrame& frame);
+// Packed samples in the byte order of a file.
 void append_samples(const Samples& samples, ByteOrder order, std::string& out);
 
 }  // namespace thermedge::io

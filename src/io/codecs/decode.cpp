@@ -1,51 +1,53 @@
-// Hands a picture to the decoder of its kind.
+// Hands a picture to the decoder of its kind, and what decoders share.
 #include <algorithm>
-#include <bit>
+#include <iterator>
 #include <utility>
 
 #include "codecs/codecs.hpp"
 #include "codecs/file_format.hpp"
+#include "codecs/picture_reader.hpp"
+#include "codecs/samples.hpp"
 #include "thermedge/catch_bad_alloc.hpp"
 #include "thermedge/io/files.hpp"
 
 namespace thermedge::io {
 
+OpenedPicture open_picture(const EncodedFile& file) {
+  switch (format_of(file.bytes)) {
+    case FileFormat::kPng:
+      return open_png(file);
+    case FileFormat::kPgm:
+      return open_pgm(file);
+    case FileFormat::kTiff:
+      return open_tiff(file);
+    case FileFormat::kNpy:
+      return open_npy(file);
+    case FileFormat::kFff:
+      return open_fff(file);
+    case FileFormat::kJpeg:
+      return open_jpeg(file);
+    case FileFormat::kUnknown:
+      break;
+  }
+  return tl::unexpected(unknown_format(file.bytes, file.name));
+}
+
 Status decode_picture(std::span<const std::byte> bytes, const std::string& name,
                       const Limits& limits, std::size_t page, SourceFrame& frame) {
   return catch_bad_alloc(name, [&]() -> Status {
     const EncodedFile file{bytes, name, limits};
-    switch (format_of(bytes)) {
-      case FileFormat::kPng:
-        return page == 0 ? decode_png(file, frame) : no_such_page(file, page);
-      case FileFormat::kPgm:
-        return page == 0 ? decode_pgm(file, frame) : no_such_page(file, page);
-      case FileFormat::kTiff:
-        return decode_tiff(file, page, frame);
-      case FileFormat::kNpy:
-        return decode_npy(file, page, frame);
-      case FileFormat::kUnknown:
-        break;
-    }
-    return tl::unexpected(unknown_format(bytes, name));
+    return open_picture(file).and_then([&](const std::unique_ptr<PictureReader>& reader) {
+      return page < reader->pages() ? reader->read(page, name, frame)
+                                    : Status(no_such_page(file, page));
+    });
   });
 }
 
 Result<std::size_t> count_pages(std::span<const std::byte> bytes, const std::string& name,
                                 const Limits& limits) {
-  return catch_bad_alloc(name, [&]() -> Result<std::size_t> {
-    const EncodedFile file{bytes, name, limits};
-    switch (format_of(bytes)) {
-      case FileFormat::kTiff:
-        return count_tiff_pages(file);
-      case FileFormat::kNpy:
-        return count_npy_pages(file);
-      case FileFormat::kPng:
-      case FileFormat::kPgm:
-        return 1;
-      case FileFormat::kUnknown:
-        break;
-    }
-    return tl::unexpected(unknown_format(bytes, name));
+  return catch_bad_alloc(name, [&] {
+    return open_picture({bytes, name, limits})
+        .map([](const std::unique_ptr<PictureReader>& reader) { return reader->pages(); });
   });
 }
 
@@ -90,32 +92,20 @@ tl::unexpected<Error> damaged(const EncodedFile& file, std::string_view format,
                  file.name + ": damaged " + std::string(format) + ": " + printable(what));
 }
 
+tl::unexpected<Error> left_over(const EncodedFile& file, std::size_t bytes, std::string_view what) {
+  return failure(ErrorCode::kBadData, file.name + ": " + std::to_string(bytes) +
+                                          (bytes == 1 ? " byte is" : " bytes are") +
+                                          " left over after " + std::string(what));
+}
+
 tl::unexpected<Error> no_such_page(const EncodedFile& file, std::size_t page) {
   return failure(ErrorCode::kInvalidArgument,
                  file.name + ": has no page " + std::to_string(page) + " (the first is 0)");
 }
 
-void unpack_samples(Bytes packed, int bits, ByteOrder order, SourceFrame& frame) {
-  const std::byte* sample = packed.data();
-  for (int y = 0; y < frame.counts.height(); ++y) {
-    std::uint16_t* row = frame.counts.row(y);
-    for (int x = 0; x < frame.counts.width(); ++x) {
-      if (bits == 8) {
-        row[x] = std::to_integer<std::uint16_t>(*sample++);
-      } else {
-        const auto first = std::to_integer<unsigned>(sample[0]);
-        const auto second = std::to_integer<unsigned>(sample[1]);
-        row[x] = static_cast<std::uint16_t>(order == ByteOrder::kBig ? first << 8 | second
-                                                                     : second << 8 | first);
-        sample += 2;
-      }
-    }
-  }
-}
-
 void append_samples(const Samples& samples, ByteOrder order, std::string& out) {
-  const bool native_is_big = std::endian::native == std::endian::big;
-  const bool as_it_lies = samples.bits == 8 || native_is_big == (order == ByteOrder::kBig);
+  const bool as_it_lies = samples.bits == 8 || order == kNativeOrder;
+  const auto sample_bytes = static_cast<std::size_t>(samples.bits) / 8;
   const std::size_t row_bytes = samples.packed_row_bytes();
   out.reserve(out.size() + row_bytes * static_cast<std::size_t>(samples.height));
   for (int y = 0; y < samples.height; ++y) {
@@ -123,9 +113,9 @@ void append_samples(const Samples& samples, ByteOrder order, std::string& out) {
     if (as_it_lies) {
       out.append(bytes, row_bytes);
     } else {
-      for (std::size_t i = 0; i < row_bytes; i += 2) {
-        out += bytes[i + 1];
-        out += bytes[i];
+      for (std::size_t i = 0; i < row_bytes; i += sample_bytes) {
+        out.append(std::make_reverse_iterator(bytes + i + sample_bytes),
+                   std::make_reverse_iterator(bytes + i));
       }
     }
   }

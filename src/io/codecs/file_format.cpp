@@ -20,14 +20,17 @@ constexpr std::array kMagics = {
     Magic{"II+\0"sv, FileFormat::kTiff},
     Magic{"MM\0+"sv, FileFormat::kTiff},
     Magic{"\x93NUMPY"sv, FileFormat::kNpy},
+    Magic{"FFF\0"sv, FileFormat::kFff},
+    Magic{"AFF\0"sv, FileFormat::kFff},
+    Magic{"\xff\xd8\xff"sv, FileFormat::kJpeg},
 };
 
 constexpr std::string_view kPipeVideo =
     "pipe it in: ffmpeg -i FILE -f rawvideo -pix_fmt gray16le - | thermedge ... - --raw-size WxH";
 constexpr std::string_view kWhatIsRead =
-    "not a picture that thermedge reads (PNG, TIFF, PGM, NPY; .raw by name)";
-constexpr std::string_view kConvertFlir =
-    "its raw counts become a picture with: exiftool -b -RawThermalImage FILE > FILE.png";
+    "not a picture that thermedge reads (PNG, TIFF, PGM, NPY, FLIR JPEG, FFF and SEQ); frames "
+    "without "
+    "a header need --raw-size WxH";
 
 // Kinds that people try and that thermedge does not read.
 struct UnsupportedFormat {
@@ -37,13 +40,10 @@ struct UnsupportedFormat {
   std::string_view advice = kWhatIsRead;
 };
 constexpr std::array kUnsupportedFormats = {
-    UnsupportedFormat{0, "\xff\xd8\xff"sv, "a JPEG picture"},
     UnsupportedFormat{0, "BM"sv, "a BMP picture"},
     UnsupportedFormat{0, "GIF8"sv, "a GIF picture"},
     UnsupportedFormat{8, "WEBP"sv, "a WebP picture"},
     UnsupportedFormat{0, "P6"sv, "a colour PPM picture"},
-    UnsupportedFormat{0, "FFF\0"sv, "a FLIR recording", kConvertFlir},
-    UnsupportedFormat{0, "AFF\0"sv, "a FLIR recording", kConvertFlir},
     UnsupportedFormat{8, "AVI "sv, "an AVI video", kPipeVideo},
     UnsupportedFormat{4, "ftyp"sv, "an MP4 or MOV video", kPipeVideo},
     UnsupportedFormat{0, "\x1a\x45\xdf\xa3"sv, "a Matroska or WebM video", kPipeVideo},

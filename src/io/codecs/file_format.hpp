@@ -9,7 +9,7 @@
 
 namespace thermedge::io {
 
-enum class FileFormat { kUnknown, kPng, kTiff, kPgm, kNpy };
+enum class FileFormat { kUnknown, kPng, kTiff, kPgm, kNpy, kFff, kJpeg };
 
 // By the first bytes; 16 are enough.
 [[nodiscard]] FileFormat format_of(std::span<const std::byte> first_bytes);

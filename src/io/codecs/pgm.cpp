@@ -1,104 +1,257 @@
-// Portable graymap: text (P2) or binary (P5) pixels after a header of three numbers.
+// Portable graymap: text (P2) or binary (P5) pixels after a header of three numbers; several
+// pictures may follow each other in a file.
+#include <algorithm>
 #include <cctype>
+#include <cstring>
 #include <optional>
+#include <vector>
 
 #include "codecs/codecs.hpp"
+#include "codecs/file_format.hpp"
+#include "codecs/picture_reader.hpp"
+#include "codecs/samples.hpp"
 
 namespace thermedge::io {
 namespace {
 
-// Reads the numbers of a PGM header (and of the pixels of a P2), past white space and comments.
-class NumberReader {
- public:
-  explicit NumberReader(Bytes bytes) : bytes_(bytes) {}
+int byte_at(Bytes bytes, std::size_t at) { return std::to_integer<int>(bytes[at]); }
 
-  std::optional<std::uint32_t> next() {
-    skip_space();
-    std::uint32_t value = 0;
-    bool any = false;
-    while (at_ < bytes_.size() && std::isdigit(peek()) != 0) {
-      const auto digit = static_cast<std::uint32_t>(peek() - '0');
-      if (value > (UINT32_MAX - digit) / 10) {
-        return std::nullopt;
-      }
-      value = value * 10 + digit;
-      any = true;
-      ++at_;
-    }
-    return any ? std::optional(value) : std::nullopt;
+std::size_t skip_blanks(Bytes bytes, std::size_t at) {
+  while (at < bytes.size() && std::isspace(byte_at(bytes, at)) != 0) {
+    ++at;
   }
+  return at;
+}
 
-  // Exactly one white space parts the header from the pixels.
-  [[nodiscard]] std::optional<Bytes> pixels() const {
-    if (at_ >= bytes_.size() || std::isspace(peek()) == 0) {
+// To the end of a line that has a comment, or to the end of the file.
+std::size_t skip_line(Bytes bytes, std::size_t at) {
+  while (at < bytes.size() && byte_at(bytes, at) != '\n') {
+    ++at;
+  }
+  return std::min(at + 1, bytes.size());
+}
+
+std::size_t skip_blanks_and_comments(Bytes bytes, std::size_t at) {
+  at = skip_blanks(bytes, at);
+  while (at < bytes.size() && byte_at(bytes, at) == '#') {
+    at = skip_blanks(bytes, skip_line(bytes, at));
+  }
+  return at;
+}
+
+// Takes the number at `at`, after blanks and comments.
+std::optional<std::uint32_t> take_number(Bytes bytes, std::size_t& at) {
+  at = skip_blanks_and_comments(bytes, at);
+  std::uint32_t value = 0;
+  const std::size_t begin = at;
+  for (; at < bytes.size() && std::isdigit(byte_at(bytes, at)) != 0; ++at) {
+    const auto digit = static_cast<std::uint32_t>(byte_at(bytes, at) - '0');
+    if (value > (UINT32_MAX - digit) / 10) {
       return std::nullopt;
     }
-    return bytes_.subspan(at_ + 1);
+    value = value * 10 + digit;
   }
+  return at > begin ? std::optional(value) : std::nullopt;
+}
 
- private:
-  [[nodiscard]] int peek() const { return std::to_integer<int>(bytes_[at_]); }
-  void skip_space() {
-    while (at_ < bytes_.size() && (std::isspace(peek()) != 0 || peek() == '#')) {
-      if (peek() == '#') {
-        while (at_ < bytes_.size() && peek() != '\n') {
-          ++at_;
-        }
-      } else {
-        ++at_;
-      }
-    }
+struct Header {
+  std::uint32_t width = 0;
+  std::uint32_t height = 0;
+  std::uint32_t largest = 0;
+  bool is_text = false;
+  std::size_t end = 0;  // after the last digit of the maximum
+
+  [[nodiscard]] int bits() const { return largest > 255 ? 16 : 8; }
+  [[nodiscard]] std::size_t pixels() const { return std::size_t{width} * height; }
+  // Of a binary picture's pixels.
+  [[nodiscard]] std::size_t raster_bytes() const {
+    return pixels() * static_cast<std::size_t>(bits() / 8);
   }
-
-  Bytes bytes_;
-  std::size_t at_ = 2;  // after "P5" or "P2"
 };
 
-Status read_text_pixels(NumberReader& numbers, std::uint32_t largest, const EncodedFile& file,
-                        ImageView<std::uint16_t> counts) {
-  for (int y = 0; y < counts.height(); ++y) {
-    for (int x = 0; x < counts.width(); ++x) {
-      const auto value = numbers.next();
-      if (!value || *value > largest) {
+Result<Header> read_header(const EncodedFile& file, std::size_t begin) {
+  Header header;
+  header.is_text = byte_at(file.bytes, begin + 1) == '2';
+  std::size_t at = begin + 2;
+  const auto width = take_number(file.bytes, at);
+  const auto height = take_number(file.bytes, at);
+  const auto largest = take_number(file.bytes, at);
+  if (!width || !height || !largest || *largest == 0 || *largest > 65535) {
+    return damaged(file, "PGM", "the header should hold width, height and a maximum of 1 to 65535");
+  }
+  header.width = *width;
+  header.height = *height;
+  header.largest = *largest;
+  header.end = at;
+  return check_claim(file, *width, *height, 2).map([&] { return header; });
+}
+
+bool is_picture(Bytes bytes, std::size_t at) {
+  return at < bytes.size() && format_of(bytes.subspan(at)) == FileFormat::kPgm;
+}
+
+// Where the pixels of a binary picture begin. One white space parts them from the maximum; there
+// are files with "\r\n" there, and files with comments. Their first bytes may be pixels as well, so
+// the first reading is taken after which the file, or the next picture, follows at once; else the
+// first after which nothing but white space lies between; else the first that leaves room for the
+// pixels.
+std::optional<std::size_t> find_raster(Bytes bytes, const Header& header) {
+  if (header.end >= bytes.size()) {
+    return std::nullopt;
+  }
+  std::vector<std::size_t> readings;
+  if (std::isspace(byte_at(bytes, header.end)) != 0) {
+    readings.push_back(header.end + 1);
+    if (byte_at(bytes, header.end) == '\r' && header.end + 1 < bytes.size() &&
+        byte_at(bytes, header.end + 1) == '\n') {
+      readings.push_back(header.end + 2);
+    }
+  }
+  const std::size_t word = skip_blanks(bytes, header.end);
+  if (word < bytes.size() && byte_at(bytes, word) == '#') {
+    std::size_t after = word;
+    while (after < bytes.size() && byte_at(bytes, after) == '#') {
+      after = skip_line(bytes, after);
+    }
+    readings.push_back(after);
+  }
+  const auto has_room = [&](std::size_t at) { return bytes.size() - at >= header.raster_bytes(); };
+  const auto ends_at_once = [&](std::size_t at) {
+    const std::size_t end = at + header.raster_bytes();
+    return has_room(at) && (end == bytes.size() || is_picture(bytes, end));
+  };
+  const auto ends_after_blanks = [&](std::size_t at) {
+    const std::size_t end = has_room(at) ? skip_blanks(bytes, at + header.raster_bytes()) : 0;
+    return has_room(at) && (end == bytes.size() || is_picture(bytes, end));
+  };
+  auto found = std::find_if(readings.begin(), readings.end(), ends_at_once);
+  found = found != readings.end()
+              ? found
+              : std::find_if(readings.begin(), readings.end(), ends_after_blanks);
+  found =
+      found != readings.end() ? found : std::find_if(readings.begin(), readings.end(), has_room);
+  return found != readings.end() ? std::optional(*found) : std::nullopt;
+}
+
+// One picture of the file.
+struct Picture {
+  Header header;
+  std::size_t raster = 0;  // where its pixels begin
+  std::size_t end = 0;     // after them
+};
+
+// Reads the numbers of a text picture; gives where they end.
+Result<std::size_t> read_text(const EncodedFile& file, const Header& header,
+                              ImageView<std::uint16_t> counts) {
+  std::size_t at = header.end;
+  for (int y = 0; y < static_cast<int>(header.height); ++y) {
+    for (int x = 0; x < static_cast<int>(header.width); ++x) {
+      const auto value = take_number(file.bytes, at);
+      if (!value || *value > header.largest) {
         return damaged(file, "PGM",
                        value ? "a pixel is above the maximum of the header"
                              : "the file ends early, or a pixel is no number");
       }
-      counts(x, y) = static_cast<std::uint16_t>(*value);
+      if (!counts.empty()) {
+        counts(x, y) = static_cast<std::uint16_t>(*value);
+      }
     }
   }
-  return {};
+  return at;
 }
+
+Result<Picture> find_picture(const EncodedFile& file, std::size_t begin) {
+  const auto header = read_header(file, begin);
+  if (!header) {
+    return tl::unexpected(header.error());
+  }
+  Picture picture{*header, header->end, 0};
+  if (header->is_text) {
+    // A pixel has at least a digit, and white space before it.
+    if (file.bytes.size() - header->end < 2 * header->pixels()) {
+      return damaged(file, "PGM", "the file ends early");
+    }
+    return read_text(file, *header, {}).map([&](std::size_t end) {
+      picture.end = end;
+      return picture;
+    });
+  }
+  const auto raster = find_raster(file.bytes, *header);
+  if (!raster) {
+    return damaged(file, "PGM", "the file ends early");
+  }
+  picture.raster = *raster;
+  picture.end = *raster + header->raster_bytes();
+  return picture;
+}
+
+class PgmReader final : public PictureReader {
+ public:
+  PgmReader(const EncodedFile& file, const Picture& first) : PictureReader(file) {
+    pictures_.push_back(first);
+    while (!fault_) {
+      const std::size_t next = skip_blanks_of(pictures_.back());
+      if (next >= file.bytes.size()) {
+        break;
+      }
+      add_next(next);
+    }
+  }
+
+  [[nodiscard]] std::size_t pages() const override { return pictures_.size() + (fault_ ? 1 : 0); }
+  [[nodiscard]] PageKind kind(std::size_t page) const override {
+    return page < pictures_.size() ? PageKind::kFrame : PageKind::kFault;
+  }
+  Status read(std::size_t page, const std::string& name, SourceFrame& frame) override {
+    if (page >= pictures_.size()) {
+      return failure(fault_->code, name + fault_->message.substr(file().name.size()));
+    }
+    const Picture& picture = pictures_[page];
+    const Header& header = picture.header;
+    const auto width = static_cast<int>(header.width);
+    const auto height = static_cast<int>(header.height);
+    if (header.is_text) {
+      SampleStore store({SampleKind::kUnsigned, header.bits()}, kNativeOrder, width, height, false,
+                        frame);
+      return read_text(file(name), header, frame.counts).and_then([&](std::size_t) {
+        return store.finish(file(name));
+      });
+    }
+    return store_packed(file(name), file().bytes.subspan(picture.raster, header.raster_bytes()),
+                        {SampleKind::kUnsigned, header.bits()},
+                        chosen_order(file().order, ByteOrder::kBig), width, height, frame);
+  }
+
+ private:
+  // Comments may follow a text picture.
+  [[nodiscard]] std::size_t skip_blanks_of(const Picture& picture) const {
+    return picture.header.is_text ? skip_blanks_and_comments(file().bytes, picture.end)
+                                  : skip_blanks(file().bytes, picture.end);
+  }
+
+  void add_next(std::size_t begin) {
+    if (!is_picture(file().bytes, begin)) {
+      fault_ = left_over(file(), file().bytes.size() - pictures_.back().end, "the picture").value();
+      return;
+    }
+    const auto picture = find_picture(file(), begin);
+    if (picture) {
+      pictures_.push_back(*picture);
+    } else {
+      fault_ = picture.error();
+    }
+  }
+
+  std::vector<Picture> pictures_;
+  std::optional<Error> fault_;  // of what follows the last good picture
+};
 
 }  // namespace
 
-Status decode_pgm(const EncodedFile& file, SourceFrame& frame) {
-  NumberReader numbers(file.bytes);
-  const auto width = numbers.next();
-  const auto height = numbers.next();
-  const auto largest = numbers.next();
-  if (!width || !height || !largest || *largest == 0 || *largest > 65535) {
-    return damaged(file, "PGM", "the header should hold width, height and a maximum of 1 to 65535");
-  }
-  if (Status status = check_claim(file, *width, *height, 2); !status) {
-    return status;
-  }
-  frame.bits = *largest > 255 ? 16 : 8;
-  const bool text = file.bytes[1] == std::byte{'2'};
-  const std::size_t pixel_count = static_cast<std::size_t>(*width) * *height;
-  // As text, a pixel has at least a digit, and white space before the next one.
-  const std::size_t needed =
-      text ? 2 * pixel_count - 1 : pixel_count * static_cast<std::size_t>(frame.bits / 8);
-  const auto pixels = numbers.pixels();
-  if (!pixels || pixels->size() < needed) {
-    return damaged(file, "PGM", "the file ends early");
-  }
-  frame.counts.resize(static_cast<int>(*width), static_cast<int>(*height));
-  if (text) {
-    return read_text_pixels(numbers, *largest, file, frame.counts);
-  }
-  unpack_samples(*pixels, frame.bits, ByteOrder::kBig, frame);
-  return {};
+OpenedPicture open_pgm(const EncodedFile& file) {
+  return find_picture(file, 0).map([&](const Picture& first) -> std::unique_ptr<PictureReader> {
+    return std::make_unique<PgmReader>(file, first);
+  });
 }
 
 std::string encode_pgm(const Samples& samples) {

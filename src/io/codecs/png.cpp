@@ -1,7 +1,6 @@
 #include <spng.h>
 #include <zlib.h>
 
-#include <algorithm>
 #include <cstdlib>
 #include <cstring>
 #include <memory>
@@ -10,6 +9,9 @@
 #include <vector>
 
 #include "codecs/codecs.hpp"
+#include "codecs/file_format.hpp"
+#include "codecs/picture_reader.hpp"
+#include "codecs/samples.hpp"
 
 namespace thermedge::io {
 namespace {
@@ -90,29 +92,28 @@ Layout layout_of(const spng_ihdr& header) {
   }
 }
 
-// Takes the first colour; false where another one differs.
-template <class T>
-bool take_grey(const std::vector<std::byte>& pixels, const Layout& layout,
-               ImageView<std::uint16_t> counts) {
-  const auto channels = static_cast<std::size_t>(layout.channels);
+// Stores the first colour of each pixel; false where another one differs.
+bool store_grey(const std::vector<std::byte>& pixels, const Layout& layout, SampleStore& store,
+                int width, int height) {
+  const auto sample_bytes = static_cast<std::size_t>(layout.bits) / 8;
+  const std::size_t pixel_bytes = static_cast<std::size_t>(layout.channels) * sample_bytes;
   const std::byte* pixel = pixels.data();
-  for (int y = 0; y < counts.height(); ++y) {
-    std::uint16_t* row = counts.row(y);
-    for (int x = 0; x < counts.width(); ++x, pixel += channels * sizeof(T)) {
-      T sample[4];
-      std::memcpy(sample, pixel, channels * sizeof(T));
-      if (std::any_of(sample, sample + layout.colours, [&](T s) { return s != sample[0]; })) {
-        return false;
+  for (int y = 0; y < height; ++y) {
+    store.put(0, y, pixel, static_cast<std::size_t>(width), pixel_bytes);
+    for (int x = 0; x < width; ++x, pixel += pixel_bytes) {
+      for (int c = 1; c < layout.colours; ++c) {
+        if (std::memcmp(pixel, pixel + static_cast<std::size_t>(c) * sample_bytes, sample_bytes) !=
+            0) {
+          return false;
+        }
       }
-      row[x] = sample[0];
     }
   }
   return true;
 }
 
-}  // namespace
-
-Status decode_png(const EncodedFile& file, SourceFrame& frame) {
+// One picture of the file; `file.bytes` begin with its signature.
+Status decode(const EncodedFile& file, SourceFrame& frame) {
   const Context png = make_context(0);
   spng_ihdr header{};
   Bytes rest = file.bytes;
@@ -130,16 +131,77 @@ Status decode_png(const EncodedFile& file, SourceFrame& frame) {
   if (error != 0 || (error = spng_decode_chunks(png.get())) != 0) {
     return damaged(file, "PNG", message_of(error));
   }
-  frame.bits = layout.bits;
-  frame.counts.resize(static_cast<int>(header.width), static_cast<int>(header.height));
-  const bool grey = frame.bits == 16 ? take_grey<std::uint16_t>(pixels, layout, frame.counts)
-                                     : take_grey<std::uint8_t>(pixels, layout, frame.counts);
-  if (!grey) {
+  const auto width = static_cast<int>(header.width);
+  const auto height = static_cast<int>(header.height);
+  // libspng gives native samples of what PNG says are big endian ones.
+  const bool is_swapped = chosen_order(file.order, ByteOrder::kBig) != ByteOrder::kBig;
+  SampleStore store({SampleKind::kUnsigned, layout.bits},
+                    is_swapped ? other_order(kNativeOrder) : kNativeOrder, width, height, false,
+                    frame);
+  if (!store_grey(pixels, layout, store, width, height)) {
     return failure(ErrorCode::kUnsupported,
                    file.name + ": a colour picture; frames have a single channel (grey)");
   }
-  return {};
+  return store.finish(file);
 }
+
+constexpr std::size_t kSignatureBytes = 8;
+
+// Where the picture ends that begins at `begin`: after its IEND chunk, or at the end of the file
+// where it was cut off.
+std::size_t end_of_picture(Bytes file, std::size_t begin) {
+  constexpr std::size_t kAroundData = 12;  // length, name, checksum
+  std::size_t at = begin + kSignatureBytes;
+  while (at + kAroundData <= file.size()) {
+    std::size_t length = 0;
+    for (std::size_t i = 0; i < 4; ++i) {
+      length = length << 8 | std::to_integer<std::size_t>(file[at + i]);
+    }
+    if (length > file.size() - at - kAroundData) {
+      break;
+    }
+    const bool is_last = std::memcmp(file.data() + at + 4, "IEND", 4) == 0;
+    at += kAroundData + length;
+    if (is_last) {
+      return at;
+    }
+  }
+  return file.size();
+}
+
+// Pictures one after the other, as image pipes write them; any other bytes at the end are passed
+// over, where cameras put what they have to say besides.
+class PngReader final : public PictureReader {
+ public:
+  explicit PngReader(const EncodedFile& file) : PictureReader(file) {
+    std::size_t at = 0;
+    do {
+      pictures_.push_back(at);
+      at = end_of_picture(file.bytes, at);
+    } while (format_of(file.bytes.subspan(at)) == FileFormat::kPng);
+    bytes_after_ = file.bytes.size() - at;
+  }
+
+  [[nodiscard]] std::size_t pages() const override { return pictures_.size(); }
+  Status read(std::size_t page, const std::string& name, SourceFrame& frame) override {
+    EncodedFile picture = file(name);
+    picture.bytes = picture.bytes.subspan(pictures_[page]);
+    return decode(picture, frame);
+  }
+  [[nodiscard]] std::string note() const override {
+    return bytes_after_ > 0
+               ? std::to_string(bytes_after_) + " bytes after the picture are passed over"
+               : "";
+  }
+
+ private:
+  std::vector<std::size_t> pictures_;  // where they begin
+  std::size_t bytes_after_ = 0;
+};
+
+}  // namespace
+
+OpenedPicture open_png(const EncodedFile& file) { return std::make_unique<PngReader>(file); }
 
 namespace {
 

@@ -1,8 +1,9 @@
-// The chain of directories, one a page, that runs through a TIFF.
+// The chain of directories, one a page, that runs through a TIFF, and single tags in them.
 #pragma once
 
 #include <cstdint>
 #include <optional>
+#include <string_view>
 
 #include "codecs/codecs.hpp"
 
@@ -23,9 +24,28 @@ class TiffPageChain {
   // Where the directory is that `next` went to.
   [[nodiscard]] std::uint64_t offset() const { return offset_; }
 
+  // The first number of a tag of the directory at `directory`: bytes, whole numbers of 16, 32 or 64
+  // bits. Nothing where there is no such tag, or it lies outside the file.
+  [[nodiscard]] std::optional<std::uint64_t> first_number(std::uint64_t directory,
+                                                          std::uint16_t tag) const;
+  // The bytes of a text; empty where there is none.
+  [[nodiscard]] std::string_view text(std::uint64_t directory, std::uint16_t tag) const;
+
+  [[nodiscard]] ByteOrder byte_order() const {
+    return big_endian_ ? ByteOrder::kBig : ByteOrder::kLittle;
+  }
+
  private:
+  struct Entry {
+    std::uint64_t type = 0;
+    std::uint64_t count = 0;
+    std::uint64_t data_at = 0;
+  };
+
   [[nodiscard]] std::optional<std::uint64_t> number(std::uint64_t at, unsigned bytes) const;
+  [[nodiscard]] std::optional<std::uint64_t> entries_of(std::uint64_t directory) const;
   [[nodiscard]] std::optional<std::uint64_t> link_after(std::uint64_t directory) const;
+  [[nodiscard]] std::optional<Entry> find(std::uint64_t directory, std::uint16_t tag) const;
 
   Bytes file_;
   bool big_endian_ = false;

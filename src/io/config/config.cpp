@@ -1,181 +1,19 @@
 #include "thermedge/io/config.hpp"
 
-#include <toml++/toml.h>
-
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <fstream>
-#include <optional>
+#include <iterator>
 #include <sstream>
 #include <type_traits>
 #include <vector>
 
+#include "config/table_reader.hpp"
+#include "thermedge/io/source_options.hpp"
+
 namespace thermedge::io {
 namespace {
-
-template <class Names>
-std::string list_names(const Names& names) {
-  std::string list;
-  for (const auto& known : names) {
-    list += (list.empty() ? "" : ", ") + std::string(known.name);
-  }
-  return list;
-}
-
-template <class E, class Names>
-Status assign_enum(const std::string& key, std::string_view text, const Names& names, E& field) {
-  for (const auto& known : names) {
-    if (known.name == text) {
-      field = known.value;
-      return {};
-    }
-  }
-  return failure(ErrorCode::kInvalidArgument,
-                 key + " = '" + std::string(text) + "' is none of " + list_names(names));
-}
-
-// "3sigma", "3 sigma" or, in the first unit, "3".
-template <class Unit, std::size_t N>
-Status assign_quantity(const std::string& key, std::string_view text,
-                       const std::array<EnumName<Unit>, N>& units, Quantity<Unit>& field) {
-  Quantity<Unit> read{0, units[0].value};
-  const char* end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data(), end, read.value);
-  std::string_view name(stop, static_cast<std::size_t>(end - stop));
-  name.remove_prefix(std::min(name.find_first_not_of(' '), name.size()));
-  const auto unit = std::find_if(units.begin(), units.end(),
-                                 [&](const EnumName<Unit>& known) { return known.name == name; });
-  if (error != std::errc{} || !(name.empty() || unit != units.end())) {
-    return failure(ErrorCode::kInvalidArgument,
-                   key + " = '" + std::string(text) + "' should be a number of " +
-                       std::string(units[0].name) + ", or a number and one of the units " +
-                       list_names(units));
-  }
-  read.unit = name.empty() ? read.unit : unit->value;
-  field = read;
-  return {};
-}
-
-template <class T>
-constexpr std::string_view kind_of() {
-  return std::is_same_v<T, bool> ? "true or false"
-         : std::is_integral_v<T> ? "a whole number"
-                                 : "a number";
-}
-
-template <class T>
-Status wrong_type(const std::string& key, const std::string& text) {
-  return failure(ErrorCode::kInvalidArgument,
-                 key + " = " + text + " should be " + std::string(kind_of<T>()));
-}
-
-// Sets fields from the nodes of a TOML table and ticks off the keys it knew.
-class TableReader {
- public:
-  TableReader(const toml::table& table, std::string prefix)
-      : table_(table), prefix_(std::move(prefix)) {}
-
-  template <class T>
-  void operator()(std::string_view name, T& field, Bounds, std::string_view) {
-    if (const toml::node* node = take(name)) {
-      const auto value = exact_value<T>(*node);
-      if (value) {
-        field = *value;
-      } else {
-        keep(wrong_type<T>(prefix_ + std::string(name), text_of(*node)), node);
-      }
-    }
-  }
-
-  template <class E, class Names>
-  requires std::is_enum_v<E>
-  void operator()(std::string_view name, E& field, const Names& names, std::string_view) {
-    if (const toml::node* node = take(name)) {
-      keep(assign_enum(prefix_ + std::string(name), node->value_or(std::string_view{}), names,
-                       field),
-           node);
-    }
-  }
-
-  template <class Unit, std::size_t N>
-  void operator()(std::string_view name, Quantity<Unit>& field, const QuantityRange<Unit, N>& range,
-                  std::string_view) {
-    if (const toml::node* node = take(name)) {
-      const std::string text = node->value<std::string>().value_or(text_of(*node));
-      keep(assign_quantity(prefix_ + std::string(name), text, range.units, field), node);
-    }
-  }
-
-  template <class O>
-  void group(std::string_view name, O& options) {
-    const toml::node* node = take(name);
-    if (node == nullptr) {
-      return;
-    }
-    if (const toml::table* table = node->as_table()) {
-      TableReader nested(*table, prefix_ + std::string(name) + ".");
-      visit_options(options, nested);
-      keep(nested.finish(), nullptr);
-    } else {
-      keep(failure(ErrorCode::kInvalidArgument,
-                   prefix_ + std::string(name) + " should be a table of options"),
-           node);
-    }
-  }
-
-  // A key that is not in the list.
-  void tick_off(std::string_view name) { taken_.push_back(name); }
-
-  // The first fault: a bad value, else a key that no option has.
-  Status finish() {
-    for (const auto& [key, node] : table_) {
-      if (std::find(taken_.begin(), taken_.end(), key.str()) == taken_.end()) {
-        keep(failure(ErrorCode::kInvalidArgument,
-                     "unknown option " + prefix_ + std::string(key.str()),
-                     prefix_ + std::string(key.str())),
-             &node);
-      }
-    }
-    return std::move(status_);
-  }
-
- private:
-  const toml::node* take(std::string_view name) {
-    taken_.push_back(name);
-    return table_.get(name);
-  }
-
-  // A number for a double, a whole one for an int, a boolean for a bool; nothing else.
-  template <class T>
-  static std::optional<T> exact_value(const toml::node& node) {
-    const bool fits = std::is_same_v<T, bool>     ? node.is_boolean()
-                      : std::is_same_v<T, double> ? node.is_number()
-                                                  : node.is_integer();
-    return fits ? node.value<T>() : std::nullopt;
-  }
-
-  static std::string text_of(const toml::node& node) {
-    std::ostringstream text;
-    node.visit([&](const auto& value) { text << value; });
-    return text.str();
-  }
-
-  void keep(Status status, const toml::node* node) {
-    if (!status && status_) {
-      if (node != nullptr) {
-        status.error().message =
-            "line " + std::to_string(node->source().begin.line) + ": " + status.error().message;
-      }
-      status_ = std::move(status);
-    }
-  }
-
-  const toml::table& table_;
-  std::string prefix_;
-  std::vector<std::string_view> taken_;
-  Status status_;
-};
 
 // Finds one option by its full name and sets it from text.
 class SettingApplier {
@@ -391,41 +229,43 @@ Error explain_unknown(Error error, const DetectorOptions& options) {
   return error;
 }
 
-}  // namespace
+// The table [source], whose values are texts or whole numbers.
+Status read_source(const toml::table& table, SourceOptions& source) {
+  const toml::node* node = table.get("source");
+  if (node == nullptr) {
+    return {};
+  }
+  const toml::table* options = node->as_table();
+  if (options == nullptr) {
+    return failure(ErrorCode::kInvalidArgument, "source should be a table of options");
+  }
+  for (const auto& [key, value] : *options) {
+    const auto number = value.value<std::int64_t>();
+    const std::string text =
+        value.is_integer() ? std::to_string(*number) : value.value_or(std::string());
+    const bool is_text = value.is_string() || value.is_integer();
+    Status status = is_text ? set_source_option(key.str(), text, source)
+                            : failure(ErrorCode::kInvalidArgument,
+                                      "should be a text in quotes or a whole number");
+    if (!status) {
+      status.error().message = "line " + std::to_string(value.source().begin.line) + ": source." +
+                               std::string(key.str()) + (is_text ? " = " + text : "") + ": " +
+                               status.error().message;
+      return status;
+    }
+  }
+  return {};
+}
 
-Status parse_config(std::string_view toml, const std::string& name, PresetChoice choice,
-                    DetectorOptions& options) {
+// Parses the text and lets `use(table)` take it; the name stands in front of every error.
+template <class Use>
+Status with_table(std::string_view text, const std::string& name, Use&& use) {
   try {
-    const toml::table table = toml::parse(toml, name);
-    DetectorOptions changed = options;
-    if (table.contains("preset") && !table["preset"].is_string()) {
-      return failure(ErrorCode::kInvalidArgument,
-                     name + ": preset should be one of " + list_names(kPresets) + " in quotes");
-    }
-    if (const auto chosen = table["preset"].value<std::string_view>()) {
-      Preset preset = options.preset();
-      if (Status status = assign_enum("preset", *chosen, kPresets, preset); !status) {
-        return failure(status.error().code, name + ": " + status.error().message);
-      }
-      if (choice == PresetChoice::kFixed && preset != options.preset()) {
-        return failure(ErrorCode::kInvalidArgument, name + ": preset = \"" + std::string(*chosen) +
-                                                        "\", but --preset " +
-                                                        std::string(preset_name(options.preset())) +
-                                                        " was given; leave one of them out");
-      }
-      changed = DetectorOptions(preset);
-    }
-    TableReader reader(table, "");
-    reader.tick_off("preset");
-    visit_options(changed, reader);
-    return reader.finish()
-        .map_error([&](Error error) { return explain_unknown(std::move(error), changed); })
-        .and_then([&] { return changed.check(); })
-        .map([&] { options = changed; })
-        .map_error([&](Error error) {
-          error.message = name + ": " + error.message;
-          return error;
-        });
+    const toml::table table = toml::parse(text, name);
+    return use(table).map_error([&](Error error) {
+      error.message = name + ": " + error.message;
+      return error;
+    });
   } catch (const toml::parse_error& error) {
     return failure(ErrorCode::kBadData, name + ": line " +
                                             std::to_string(error.source().begin.line) +
@@ -433,31 +273,101 @@ Status parse_config(std::string_view toml, const std::string& name, PresetChoice
   }
 }
 
-Status load_config(const std::string& path, PresetChoice choice, DetectorOptions& options) {
-  return read_text(path).and_then(
-      [&](const std::string& text) { return parse_config(text, path, choice, options); });
+// Sets the options in the table, all of them or, on error, none. `source`: null where a table
+// [source] is an error.
+template <class Options, class Explain>
+Status take_table(const toml::table& table, Options changed, Options& options,
+                  SourceOptions* source, Explain&& explain) {
+  SourceOptions changed_source = source != nullptr ? *source : SourceOptions();
+  TableReader reader(table, "");
+  reader.tick_off("preset");
+  if (source != nullptr) {
+    reader.tick_off("source");
+  }
+  visit_options(changed, reader);
+  return reader.finish()
+      .map_error([&](Error error) { return explain(std::move(error), changed); })
+      .and_then([&] { return changed.check(); })
+      .and_then([&] { return source != nullptr ? read_source(table, changed_source) : Status(); })
+      .map([&] {
+        options = changed;
+        if (source != nullptr) {
+          *source = changed_source;
+        }
+      });
 }
 
-Status load_config(const std::string& path, FrameDenoiserOptions& options) {
-  return read_text(path).and_then([&](const std::string& text) -> Status {
-    try {
-      const toml::table table = toml::parse(text, path);
-      FrameDenoiserOptions changed = options;
-      TableReader reader(table, "");
-      visit_options(changed, reader);
-      return reader.finish()
-          .and_then([&] { return changed.check(); })
-          .map([&] { options = changed; })
-          .map_error([&](Error error) {
-            error.message = path + ": " + error.message;
-            return error;
-          });
-    } catch (const toml::parse_error& error) {
-      return failure(ErrorCode::kBadData, path + ": line " +
-                                              std::to_string(error.source().begin.line) +
-                                              ": not TOML: " + std::string(error.description()));
-    }
+// The options that a table starts from: those of its preset.
+Result<DetectorOptions> start_of(const toml::table& table, PresetChoice choice,
+                                 const DetectorOptions& options) {
+  const toml::node* node = table.get("preset");
+  if (node == nullptr) {
+    return options;
+  }
+  const auto chosen = node->value<std::string_view>();
+  if (!chosen || !node->is_string()) {
+    return failure(ErrorCode::kInvalidArgument,
+                   "preset should be one of " + list_names(kPresets) + " in quotes");
+  }
+  Preset preset = options.preset();
+  if (Status status = assign_enum("preset", *chosen, kPresets, preset); !status) {
+    return tl::unexpected(status.error());
+  }
+  if (choice == PresetChoice::kFixed && preset != options.preset()) {
+    return failure(ErrorCode::kInvalidArgument, "preset = \"" + std::string(*chosen) +
+                                                    "\", but --preset " +
+                                                    std::string(preset_name(options.preset())) +
+                                                    " was given; leave one of them out");
+  }
+  return DetectorOptions(preset);
+}
+
+Status parse(std::string_view toml, const std::string& name, PresetChoice choice,
+             DetectorOptions& options, SourceOptions* source) {
+  return with_table(toml, name, [&](const toml::table& table) {
+    return start_of(table, choice, options).and_then([&](const DetectorOptions& start) {
+      return take_table(table, start, options, source, explain_unknown);
+    });
   });
+}
+
+}  // namespace
+
+Status parse_config(std::string_view toml, const std::string& name, PresetChoice choice,
+                    DetectorOptions& options) {
+  return parse(toml, name, choice, options, nullptr);
+}
+
+Status load_config(const std::string& path, PresetChoice choice, DetectorOptions& options,
+                   SourceOptions* source) {
+  return read_text(path).and_then(
+      [&](const std::string& text) { return parse(text, path, choice, options, source); });
+}
+
+Status load_config(const std::string& path, FrameDenoiserOptions& options, SourceOptions* source) {
+  return read_text(path).and_then([&](const std::string& text) {
+    return with_table(text, path, [&](const toml::table& table) {
+      return take_table(table, options, options, source,
+                        [](Error error, const FrameDenoiserOptions&) { return error; });
+    });
+  });
+}
+
+bool is_source_setting(std::string_view setting) { return setting.starts_with("source."); }
+
+Status apply_setting(std::string_view setting, SourceOptions& options) {
+  const std::size_t equals = std::min(setting.find('='), setting.size());
+  if (!is_source_setting(setting) || equals == setting.size()) {
+    return failure(ErrorCode::kInvalidArgument,
+                   "'" + std::string(setting) + "' should read source.option=value");
+  }
+  const std::string_view key = setting.substr(0, equals);
+  return set_source_option(key.substr(key.find('.') + 1), setting.substr(equals + 1), options)
+      .map_error([&](Error error) {
+        error.message = std::string(key) + " = " + std::string(setting.substr(equals + 1)) + ": " +
+                        error.message;
+        return error;
+      });
 }
 
 Status apply_setting(std::string_view setting, DetectorOptions& options) {

@@ -1,5 +1,6 @@
 #include "thermedge/io/write.hpp"
 
+#include <string_view>
 #include <type_traits>
 
 #include "codecs/codecs.hpp"
@@ -20,19 +21,27 @@ Samples samples_of(ImageView<const T> picture) {
           .channels = kColour ? 3 : 1};
 }
 
+// The endings that a picture of these samples may have.
+std::string_view endings_of(const Samples& samples) {
+  return samples.channels != 1 ? ".png"
+         : samples.bits == 32  ? ".tif, .tiff, .npy or .raw, which hold float values"
+                               : ".png, .tif, .tiff, .pgm, .npy or .raw";
+}
+
 Result<std::string> encode(const Samples& samples, const std::string& path) {
   const std::string ending = ending_of(path);
   const bool grey = samples.channels == 1;
+  const bool whole = samples.bits != 32;
   if (samples.width == 0 || samples.height == 0) {
     return failure(ErrorCode::kInvalidArgument, path + ": a picture without pixels");
   }
-  if (ending == ".png") {
+  if (whole && ending == ".png") {
     return encode_png(samples, path);
   }
   if (grey && (ending == ".tif" || ending == ".tiff")) {
     return encode_tiff(samples, path);
   }
-  if (grey && ending == ".pgm") {
+  if (grey && whole && ending == ".pgm") {
     return encode_pgm(samples);
   }
   if (grey && ending == ".npy") {
@@ -43,9 +52,8 @@ Result<std::string> encode(const Samples& samples, const std::string& path) {
     append_samples(samples, ByteOrder::kLittle, bytes);
     return bytes;
   }
-  return failure(
-      ErrorCode::kInvalidArgument,
-      path + ": the name should end in .png" + (grey ? ", .tif, .tiff, .pgm, .npy or .raw" : ""));
+  return failure(ErrorCode::kInvalidArgument,
+                 path + ": the name should end in " + std::string(endings_of(samples)));
 }
 
 Status write_samples(const std::string& path, const Samples& samples) {
@@ -63,6 +71,10 @@ Status write_picture(const std::string& path, ImageView<const std::uint8_t> pict
 }
 
 Status write_picture(const std::string& path, ImageView<const std::uint16_t> picture) {
+  return write_samples(path, samples_of(picture));
+}
+
+Status write_picture(const std::string& path, ImageView<const float> picture) {
   return write_samples(path, samples_of(picture));
 }
 

@@ -4,12 +4,13 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
-#include <fstream>
 #include <memory>
-#include <span>
+#include <string_view>
 #include <system_error>
 
 #include "codecs/file_format.hpp"
+#include "codecs/flir_records.hpp"
+#include "sources/input_file.hpp"
 #include "thermedge/io/files.hpp"
 
 namespace thermedge::io {
@@ -18,25 +19,30 @@ namespace {
 namespace fs = std::filesystem;
 using Paths = std::vector<std::string>;
 
-bool is_picture(const fs::path& path) {
-  if (has_picture_ending(path.string())) {
+// Endings of frames without a header, which are read where their size is given.
+constexpr std::array<std::string_view, 6> kRawEndings = {".raw", ".bin", ".dat",
+                                                         ".y16", ".img", ".gray"};
+
+// A plain JPEG beside the frames is no frame; FLIR's are.
+bool is_picture(const fs::path& path, bool with_raw) {
+  const std::string name = path.string();
+  if (has_picture_ending(name) || (with_raw && std::find(kRawEndings.begin(), kRawEndings.end(),
+                                                         ending_of(name)) != kRawEndings.end())) {
     return true;
   }
-  std::array<char, 16> first{};
-  std::ifstream file(path, std::ios::binary);
-  file.read(first.data(), first.size());
-  const auto count = static_cast<std::size_t>(file.gcount());
-  return format_of(std::as_bytes(std::span(first.data(), count))) != FileFormat::kUnknown;
+  const auto bytes = first_bytes_of(name);
+  const FileFormat format = bytes ? format_of(*bytes) : FileFormat::kUnknown;
+  return format == FileFormat::kJpeg ? has_flir(*bytes) : format != FileFormat::kUnknown;
 }
 
-Result<Paths> pictures_in(const std::string& directory) {
+Result<Paths> pictures_in(const std::string& directory, bool with_raw) {
   Paths paths;
   std::error_code error;
   for (fs::directory_iterator entry(directory, error), end; !error && entry != end;
        entry.increment(error)) {
     const bool hidden = entry->path().filename().string().starts_with('.');
     std::error_code unreadable;
-    if (!hidden && entry->is_regular_file(unreadable) && is_picture(entry->path())) {
+    if (!hidden && entry->is_regular_file(unreadable) && is_picture(entry->path(), with_raw)) {
       paths.push_back(entry->path().string());
     }
   }
@@ -47,17 +53,19 @@ Result<Paths> pictures_in(const std::string& directory) {
   return paths;
 }
 
-Result<Paths> list_directory(const std::string& directory) {
-  return pictures_in(directory).and_then([&](Paths paths) -> Result<Paths> {
+Result<Paths> list_directory(const std::string& directory, bool with_raw) {
+  return pictures_in(directory, with_raw).and_then([&](Paths paths) -> Result<Paths> {
     if (paths.empty()) {
       return failure(ErrorCode::kIo,
-                     directory + ": no pictures in this directory (PNG, TIFF, PGM, NPY, .raw)");
+                     directory +
+                         ": no pictures in this directory (PNG, TIFF, PGM, NPY, FLIR JPEG, FFF and "
+                         "SEQ, .raw; with --raw-size .bin and .dat, too)");
     }
     return paths;
   });
 }
 
-Result<Paths> match_glob(const std::string& pattern) {
+Result<Paths> match_glob(const std::string& pattern, bool with_raw) {
   glob_t found{};
   const std::unique_ptr<glob_t, void (*)(glob_t*)> freed(&found, globfree);
   const int code = ::glob(pattern.c_str(), GLOB_NOSORT, nullptr, &found);
@@ -71,7 +79,7 @@ Result<Paths> match_glob(const std::string& pattern) {
     std::error_code error;
     if (!fs::is_directory(match, error)) {
       paths.push_back(std::move(match));
-    } else if (auto pictures = pictures_in(match)) {
+    } else if (auto pictures = pictures_in(match, with_raw)) {
       paths.insert(paths.end(), pictures->begin(), pictures->end());
     } else {
       return pictures;
@@ -117,20 +125,20 @@ bool natural_less(std::string_view a, std::string_view b) {
   return a_ended != b_ended ? a_ended : a < b;
 }
 
-Result<std::vector<std::string>> expand_input(const std::string& input) {
+Result<std::vector<std::string>> expand_input(const std::string& input, bool with_raw) {
   if (input == "-") {
     return Paths{input};
   }
   std::error_code error;
   const fs::file_status status = fs::status(input, error);
   if (fs::is_directory(status)) {
-    return list_directory(input);
+    return list_directory(input, with_raw);
   }
   if (status.type() != fs::file_type::not_found) {
     return Paths{input};
   }
   if (input.find_first_of("*?[") != std::string::npos) {
-    return match_glob(input);
+    return match_glob(input, with_raw);
   }
   return failure(ErrorCode::kIo, input + ": no such file or directory");
 }

@@ -64,6 +64,21 @@ Result<std::vector<std::byte>> read_file(const std::string& path, const Limits& 
   });
 }
 
+Result<std::vector<std::byte>> first_bytes_of(const std::string& path) {
+  constexpr std::size_t kEnough =
+      256 * 1024;  // FLIR's part of a JPEG comes after Exif and thumbnail
+  if (Status status = check_is_file(path); !status) {
+    return tl::unexpected(status.error());
+  }
+  return InputFile::open(path).and_then([&](InputFile file) {
+    std::vector<std::byte> bytes(kEnough);
+    return file.read(bytes).map([&](std::size_t count) {
+      bytes.resize(count);
+      return std::move(bytes);
+    });
+  });
+}
+
 std::string stem_of(const std::string& path) { return fs::path(path).stem().string(); }
 
 std::string ending_of(const std::string& path) {

@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "thermedge/result.hpp"
 
@@ -41,5 +42,8 @@ class InputFile {
   std::string name_;
   int descriptor_;
 };
+
+// The beginning of a file, as much as tells its kind. Errors: it is no regular file, or unreadable.
+[[nodiscard]] Result<std::vector<std::byte>> first_bytes_of(const std::string& path);
 
 }  // namespace thermedge::io
