@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "thermedge/frame.hpp"
 #include "thermedge/image.hpp"
 #include "thermedge/options.hpp"
 
@@ -23,29 +24,41 @@ struct Finder {
   std::function<void(ImageView<const std::uint8_t> levels, ImageView<std::uint8_t> map)> run;
 };
 
-// Counts -> edges, whole.
-using WholeDetector =
-    std::function<void(ImageView<const std::uint16_t> counts, ImageView<std::uint8_t> map)>;
+// Frame -> edges.
+using WholeDetector = std::function<void(const Frame& frame, ImageView<std::uint8_t> map)>;
 
-// Ours as they come (`whole`), or every pair of a front and a finder as settings to choose from.
+struct NamedDetector {
+  std::string name;
+  WholeDetector run;
+};
+
+// Whole detectors, or every pair of a front and a finder, as settings to choose from. What has
+// fronts takes frames of 16 bits.
 struct Competitor {
   std::string name;
   std::string family;  // thermedge, OpenCV or classical
-  WholeDetector whole;
+  std::vector<NamedDetector> wholes;
   std::vector<FrontEnd> fronts;
   std::vector<Finder> finders;
 
-  [[nodiscard]] std::size_t settings() const { return whole ? 1 : fronts.size() * finders.size(); }
+  [[nodiscard]] std::size_t settings() const {
+    return wholes.empty() ? fronts.size() * finders.size() : wholes.size();
+  }
   [[nodiscard]] std::string setting_name(std::size_t setting) const;
-  void run(std::size_t setting, ImageView<const std::uint16_t> counts,
-           ImageView<std::uint8_t> map) const;
+  void run(std::size_t setting, const Frame& frame, ImageView<std::uint8_t> map) const;
 };
 
 // The mask of a detector on one thread.
 [[nodiscard]] WholeDetector thermedge_detector(const DetectorOptions& options);
+[[nodiscard]] Competitor thermedge_competitor(std::string name, const DetectorOptions& options);
 
-// The presets, and each peer with the settings that it is tuned over.
+// The presets, and each peer with the settings that it is tuned over, behind Algorithm 1.
 [[nodiscard]] std::vector<Competitor> all_competitors();
+
+// The same for frames of any range whose noise of `sigma_counts` is known: 8-bit peers get them
+// with 4 levels for each sigma or stretched to the frame's range, whichever is better. Canny stands
+// there a second time, on counts.
+[[nodiscard]] std::vector<Competitor> competitors_in_noise(double sigma_counts);
 
 // No filter, Gaussian, NL-means and BM3D of this library; median and bilateral of OpenCV.
 [[nodiscard]] std::vector<FrontEnd> denoising_fronts();

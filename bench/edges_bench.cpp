@@ -21,10 +21,12 @@ struct Measurement {
   std::string_view name;
   void (*run)(const BenchOptions& options);
 };
-constexpr std::array kMeasurements = {
-    Measurement{"noise", measure_noise}, Measurement{"single_edges", measure_single_edges},
-    Measurement{"false_alarms", measure_false_alarms}, Measurement{"denoisers", measure_denoisers},
-    Measurement{"scaling", measure_scaling}};
+constexpr std::array kMeasurements = {Measurement{"noise", measure_noise},
+                                      Measurement{"conditions", measure_conditions},
+                                      Measurement{"single_edges", measure_single_edges},
+                                      Measurement{"false_alarms", measure_false_alarms},
+                                      Measurement{"denoisers", measure_denoisers},
+                                      Measurement{"scaling", measure_scaling}};
 
 struct Command {
   BenchOptions options;

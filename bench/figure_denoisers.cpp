@@ -20,9 +20,9 @@ void add_row(const Frames& frames, const std::string& denoiser, const Competitor
              Csv& csv) {
   const std::size_t setting = best_setting(competitor, frames.tuning);
   const Performance p = measure(competitor, setting, frames.test);
-  csv.add(fmt::format("{},{},{},{},{},{:.4f},{:.4f},{:.4f},{:.3f}", frames.noise, denoiser,
-                      competitor.name, competitor.setting_name(setting), frames.test.size(),
-                      p.counts.f_measure(), p.counts.precision(), p.counts.recall(), p.ms));
+  csv.add(fmt::format("{},{},{},{},{},{},{:.3f}", frames.noise, denoiser, competitor.name,
+                      competitor.setting_name(setting), frames.test.size(), quality_cells(p.counts),
+                      p.ms));
 }
 
 // All stages of preset `paper` that come after its denoiser.
@@ -63,8 +63,7 @@ void measure_denoisers(const BenchOptions& options) {
                                        {"BM3D", DenoiseMethod::kBm3d}}) {
       DetectorOptions robust = DetectorOptions(Preset::kRobust);
       robust.denoise.method = method;
-      add_row(frames, name, {"thermedge robust", "thermedge", thermedge_detector(robust), {}, {}},
-              csv);
+      add_row(frames, name, thermedge_competitor("thermedge robust", robust), csv);
     }
   }
   csv.write();

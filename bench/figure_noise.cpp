@@ -35,9 +35,9 @@ void add_rows(const std::string& set, double noise, const std::vector<Competitor
               Csv& csv) {
   for (std::size_t i = 0; i < all.size(); ++i) {
     const Performance p = measure(all[i], settings[i], frames);
-    csv.add(fmt::format("{},{},{},{},{},{},{:.4f},{:.4f},{:.4f},{:.3f}", set, noise, all[i].family,
-                        all[i].name, all[i].setting_name(settings[i]), frames.size(),
-                        p.counts.f_measure(), p.counts.precision(), p.counts.recall(), p.ms));
+    csv.add(fmt::format("{},{},{},{},{},{},{},{:.3f}", set, noise, all[i].family, all[i].name,
+                        all[i].setting_name(settings[i]), frames.size(), quality_cells(p.counts),
+                        p.ms));
   }
 }
 

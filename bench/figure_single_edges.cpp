@@ -56,11 +56,10 @@ void add_quiet_settings(const Competitor& peer, const std::vector<Image<std::uin
     for (std::size_t finder = 0; finder < peer.finders.size(); ++finder) {
       const std::size_t setting = front * peer.finders.size() + finder;
       if (false_contours(peer, setting, frames) <= kFalseContours) {
-        entrants.push_back(
-            {peer.name, peer.setting_name(setting), true,
-             [peer, setting](ImageView<const std::uint16_t> counts, ImageView<std::uint8_t> map) {
-               peer.run(setting, counts, map);
-             }});
+        entrants.push_back({peer.name, peer.setting_name(setting), true,
+                            [peer, setting](const Frame& frame, ImageView<std::uint8_t> map) {
+                              peer.run(setting, frame, map);
+                            }});
         break;
       }
     }

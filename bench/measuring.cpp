@@ -1,8 +1,10 @@
 #include "measuring.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
-#include <chrono>
+#include <ctime>
 
 #include "value_or_exit.hpp"
 
@@ -20,6 +22,10 @@ std::vector<eval::MatchCounts> with_all_settings(const Competitor& competitor,
   std::vector<eval::MatchCounts> counts;
   Image<std::uint8_t> levels(frame.counts.width(), frame.counts.height());
   Image<std::uint8_t> map(frame.counts.width(), frame.counts.height());
+  for (const NamedDetector& whole : competitor.wholes) {
+    whole.run(frame.frame(), map);
+    counts.push_back(matched(map, frame.truth));
+  }
   for (const FrontEnd& front : competitor.fronts) {
     front.run(frame.counts, levels);
     for (const Finder& finder : competitor.finders) {
@@ -50,12 +56,11 @@ Performance measure(const Competitor& competitor, std::size_t setting,
   for (const TestFrame& frame : frames) {
     Image<std::uint8_t> map(frame.counts.width(), frame.counts.height());
     if (ms.empty()) {
-      competitor.run(setting, frame.counts, map);  // memory is taken and caches are filled
+      competitor.run(setting, frame.frame(), map);  // memory is taken and caches are filled
     }
-    const auto start = std::chrono::steady_clock::now();
-    competitor.run(setting, frame.counts, map);
-    ms.push_back(std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
-                     .count());
+    const double start = processor_ms();
+    competitor.run(setting, frame.frame(), map);
+    ms.push_back(processor_ms() - start);
     performance.counts += matched(map, frame.truth);
   }
   performance.ms = median(std::move(ms));
@@ -83,6 +88,11 @@ std::size_t best_setting(const Competitor& competitor, const std::vector<TestFra
   return static_cast<std::size_t>(best - sums.begin());
 }
 
+std::string quality_cells(const eval::MatchCounts& counts) {
+  return fmt::format("{:.4f},{:.4f},{:.4f}", counts.f_measure(), counts.precision(),
+                     counts.recall());
+}
+
 std::vector<CleanScene> random_scenes(std::uint64_t first_seed, int count) {
   std::vector<CleanScene> scenes(static_cast<std::size_t>(count));
   make_runner(0)->run(count, [&](int i) {
@@ -100,6 +110,8 @@ std::vector<TestFrame> exposed(const std::vector<CleanScene>& scenes, double sig
   }
   return frames;
 }
+
+double processor_ms() { return 1000.0 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>((values.size() - 1) / 2);

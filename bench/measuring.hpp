@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <vector>
 
 #include "competitors.hpp"
@@ -12,10 +13,13 @@ namespace thermedge::bench {
 
 struct Performance {
   eval::MatchCounts counts;  // summed over the frames
-  double ms = 0;             // median time of a frame on one thread
+  double ms = 0;             // median processor time of a frame
 };
 [[nodiscard]] Performance measure(const Competitor& competitor, std::size_t setting,
                                   const std::vector<TestFrame>& frames);
+
+// F, precision and recall as columns of a CSV file.
+[[nodiscard]] std::string quality_cells(const eval::MatchCounts& counts);
 
 // The setting with the best F over these frames (ties: the first).
 [[nodiscard]] std::size_t best_setting(const Competitor& competitor,
@@ -25,6 +29,9 @@ struct Performance {
 [[nodiscard]] std::vector<CleanScene> random_scenes(std::uint64_t first_seed, int count);
 [[nodiscard]] std::vector<TestFrame> exposed(const std::vector<CleanScene>& scenes,
                                              double sigma_counts, std::uint64_t seed);
+
+// Processor time of all threads of this process until now, ms. Other programs don't count.
+[[nodiscard]] double processor_ms();
 
 [[nodiscard]] double median(std::vector<double> values);
 

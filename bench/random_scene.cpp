@@ -12,6 +12,8 @@ namespace {
 
 using eval::Point;
 
+constexpr int kWidth = 382;
+constexpr int kHeight = 288;
 constexpr int kSamples = 4;  // along a side of a pixel
 constexpr double kPiecePx = 4;
 constexpr double kStepPx = 0.25;
@@ -32,29 +34,15 @@ std::pair<double, double> range_of(ImageView<const float> image) {
   return {low, at(0.995)};
 }
 
-Image<std::uint8_t> truth_map(const eval::CurveFrame& edges, double least) {
-  Image<std::uint8_t> map;
-  eval::draw_curves(edges, least, map);
-  eval::thin(map.view());
-  for (int y = 0; y < map.height(); ++y) {
-    for (int x = 0; x < map.width(); ++x) {
-      if (x == 0 || y == 0 || x == map.width() - 1 || y == map.height() - 1) {
-        map(x, y) = 0;
-      }
-    }
-  }
-  return map;
-}
-
-// Adds three waves of a few hundredths, as long as half the frame and longer.
-void add_background(Draws& draws, ImageView<float> image) {
+// Adds three waves of a few hundredths (times `share`), as long as half the frame and longer.
+void add_background(Draws& draws, double share, ImageView<float> image) {
   struct Wave {
     double height, x, y, phase;
   };
   std::vector<Wave> waves;
   for (int i = 0; i < 3; ++i) {
     Wave wave;
-    wave.height = draws.normal(0.03);
+    wave.height = share * draws.normal(0.03);
     wave.x = draws.uniform(-4, 4) / image.width();
     wave.y = draws.uniform(-4, 4) / image.height();
     wave.phase = draws.uniform(0, 6);
@@ -72,7 +60,46 @@ void add_background(Draws& draws, ImageView<float> image) {
   }
 }
 
+void add(ImageView<const float> image, ImageView<float> sum) {
+  for (int y = 0; y < sum.height(); ++y) {
+    for (int x = 0; x < sum.width(); ++x) {
+      sum(x, y) += image(x, y);
+    }
+  }
+}
+
+// A step as a share of the range; most are small.
+double random_step(const SceneVariation& variation, Draws& draws) {
+  const double share = draws.uniform(0, 1);
+  const double size = variation.faint_steps ? 0.001 + 0.699 * share * share * share * share * share
+                                            : 0.05 + 0.65 * share * share;
+  return size * (draws.coin() ? 1 : -1);
+}
+
+void add_hot_things(std::uint64_t seed, double range, Painting& painting) {
+  Draws draws(seed, 0x407);
+  const int things = draws.integer(1, 3);
+  for (int i = 0; i < things; ++i) {
+    Polygon outline = random_small_shape(kWidth, kHeight, draws);
+    painting.add(std::move(outline), range * draws.uniform(8, 46), 0, 0);
+  }
+}
+
 }  // namespace
+
+Image<std::uint8_t> truth_map(const eval::CurveFrame& edges, double least) {
+  Image<std::uint8_t> map;
+  eval::draw_curves(edges, least, map);
+  eval::thin(map.view());
+  for (int y = 0; y < map.height(); ++y) {
+    for (int x = 0; x < map.width(); ++x) {
+      if (x == 0 || y == 0 || x == map.width() - 1 || y == map.height() - 1) {
+        map(x, y) = 0;
+      }
+    }
+  }
+  return map;
+}
 
 void Painting::add(Polygon outline, double step, double slope_x, double slope_y) {
   const auto& corners = outline.corners();
@@ -204,25 +231,33 @@ eval::CurveFrame Painting::edges() const {
   return frame;
 }
 
-CleanScene random_scene(std::uint64_t seed, int width, int height) {
+CleanScene random_scene(std::uint64_t seed, const SceneVariation& variation) {
+  const double softness = variation.faint_steps ? 0.08 : 1;  // of slopes and background
   Draws draws(seed, 0xBE7C);
-  const double ground_x = draws.normal(0.08);
-  Painting painting(width, height, {0, ground_x, draws.normal(0.08)});
+  const double ground_x = softness * draws.normal(0.08);
+  Painting painting(kWidth, kHeight, {0, ground_x, softness * draws.normal(0.08)});
   const int things = draws.integer(14, 23);
   for (int i = 0; i < things; ++i) {
-    Polygon outline = i < 2 && draws.coin() ? random_wall(width, height, draws)
-                                            : random_shape(width, height, draws);
-    const double share = draws.uniform(0, 1);
-    const double step = (0.05 + 0.65 * share * share) * (draws.coin() ? 1 : -1);
-    const double slope_x = draws.normal(0.06);
-    painting.add(std::move(outline), step, slope_x, draws.normal(0.06));
+    Polygon outline = i < 2 && draws.coin() ? random_wall(kWidth, kHeight, draws)
+                                            : random_shape(kWidth, kHeight, draws);
+    const double step = random_step(variation, draws);
+    const double slope_x = softness * draws.normal(0.06);
+    painting.add(std::move(outline), step, slope_x, softness * draws.normal(0.06));
   }
   CleanScene scene;
   scene.shares = painting.render(*make_runner(1));
-  add_background(draws, scene.shares);
+  Image<float> background(kWidth, kHeight);
+  fill_pixels(background.view(), 0.0F);
+  add_background(draws, softness, background);
+  add(background, scene.shares);
   const auto [low, high] = range_of(scene.shares);
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
+  if (variation.hot_things) {
+    add_hot_things(seed, high - low, painting);
+    scene.shares = painting.render(*make_runner(1));
+    add(background, scene.shares);
+  }
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
       scene.shares(x, y) = static_cast<float>((scene.shares(x, y) - low) / (high - low));
     }
   }

@@ -22,9 +22,21 @@ struct CleanScene {
   eval::TruthMaps truth;   // from these, one pixel wide, without the frame's border
 };
 
+struct SceneVariation {
+  // Steps from .001 of the range on instead of .05, with slopes and background as gentle.
+  bool faint_steps = false;
+  // One to three small things on top, 8 to 46 times as far from the rest as its range is wide;
+  // the range is that of the scene without them.
+  bool hot_things = false;
+};
+
 // 14 to 23 things, each a step of .05 to .7 warmer or colder than what it lies on and with a slope
-// of its own, over a smooth background. The same seed gives the same bits everywhere. Any thread.
-[[nodiscard]] CleanScene random_scene(std::uint64_t seed, int width = 382, int height = 288);
+// of its own, over a smooth background; 382x288. The same seed gives the same bits everywhere. Any
+// thread.
+[[nodiscard]] CleanScene random_scene(std::uint64_t seed, const SceneVariation& variation = {});
+
+// Edges of at least this contrast, one pixel wide, without the frame's border.
+[[nodiscard]] Image<std::uint8_t> truth_map(const eval::CurveFrame& edges, double least);
 
 // Things painted one over the other, the last one on top.
 class Painting {

@@ -155,6 +155,14 @@ Polygon random_shape(int width, int height, Draws& draws) {
   }
 }
 
+Polygon random_small_shape(int width, int height, Draws& draws) {
+  const Point centre{draws.uniform(0.05, 0.95) * width, draws.uniform(0.05, 0.95) * height};
+  const double size = draws.uniform(8, 17);
+  const double angle = draws.uniform(0, kTurn);
+  return Polygon(draws.coin() ? ellipse(size, angle, centre, draws)
+                              : box(size, angle, centre, draws));
+}
+
 Polygon random_wall(int width, int height, Draws& draws) {
   constexpr double kOutside = 50;
   const bool upright = draws.coin();

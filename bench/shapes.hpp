@@ -45,6 +45,10 @@ class Polygon {
 // anywhere in a frame of this size.
 [[nodiscard]] Polygon random_shape(int width, int height, Draws& draws);
 
+// An ellipse or a box of .1 to 1 % of a frame of 382x288, away from the border of a frame of this
+// size.
+[[nodiscard]] Polygon random_small_shape(int width, int height, Draws& draws);
+
 // What lies between two lines along an axis and crosses the whole frame.
 [[nodiscard]] Polygon random_wall(int width, int height, Draws& draws);
 

@@ -22,8 +22,7 @@ using eval::Point;
 
 constexpr int kWidth = 382;
 constexpr int kHeight = 288;
-constexpr double kFadePx = 70;
-constexpr double kTaperPx = 12;
+constexpr double kFadePx = 35;
 
 // A straight line, or an arc whose centre lies on the -normal side, seen from its middle.
 struct Line {
@@ -56,14 +55,13 @@ struct Line {
     return {middle.x + u * direction.cos - v * direction.sin,
             middle.y + u * direction.sin + v * direction.cos};
   }
-  // Height of the step's profile, 0 .. 1.
+  // Height of the step's profile, -.5 .. .5.
   [[nodiscard]] double share(Point where) const {
     const Point local = along_and_beside(where);
-    const double to_end = length / 2 - std::abs(local.x);
-    if (local.y < 0 || to_end < 0) {
+    if (std::abs(local.x) > length / 2) {
       return 0;
     }
-    return std::max(0.0, 1 - local.y / kFadePx) * std::min(1.0, to_end / kTaperPx);
+    return std::copysign(0.5 * std::exp(-std::abs(local.y) / kFadePx), local.y);
   }
 };
 
@@ -179,6 +177,8 @@ std::vector<TestFrame> prepared(const std::string& directory, const std::string&
   }
   return frames;
 }
+
+double uneven_noise(double x, int width) { return std::exp2(2 * x / (width - 1) - 1); }
 
 Image<std::uint16_t> empty_frame(Emptiness kind, double sigma_counts, std::uint64_t seed) {
   Image<float> clean = flat();

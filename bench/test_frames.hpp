@@ -7,6 +7,7 @@
 
 #include "random_scene.hpp"
 #include "thermedge/eval/counts.hpp"
+#include "thermedge/frame.hpp"
 #include "thermedge/image.hpp"
 
 namespace thermedge::bench {
@@ -14,6 +15,9 @@ namespace thermedge::bench {
 struct TestFrame {
   Image<std::uint16_t> counts;
   eval::TruthMaps truth;
+  int bits = 16;  // 8: grey levels
+
+  [[nodiscard]] Frame frame() const { return {counts.view(), bits}; }
 };
 
 // What the camera adds; the column pattern is sigma / 3, the row pattern sigma / 4.
@@ -45,6 +49,9 @@ inline constexpr double kMiddleCounts = 2700;
 [[nodiscard]] std::vector<TestFrame> prepared(const std::string& directory,
                                               const std::string& condition, int most);
 
+// Uneven noise over its mean in logarithms: 1/2 at the left border and 2 at the right one.
+[[nodiscard]] double uneven_noise(double x, int width);
+
 // Flat frames of noise, or with a vignette that takes 5 sigma from the corners.
 enum class Emptiness { kPlain, kStripes, kVignette };
 [[nodiscard]] Image<std::uint16_t> empty_frame(Emptiness kind, double sigma_counts,
@@ -56,8 +63,9 @@ struct SingleEdge {
   std::vector<eval::Point> points;
 };
 // A step of `contrast_counts` and `length_px`, straight or an arc with a radius of 1.2 times its
-// length, at a place and direction of its own. It fades linearly over 70 px beyond the edge and
-// tapers over 12 px at its ends; optics of 1 px.
+// length, at a place and direction of its own. Half of it rises above the frame on one side and
+// half falls below it on the other; both fade exponentially with the distance, to 1 / e at 35 px,
+// and end straight across the edge's ends; optics of 1 px.
 [[nodiscard]] SingleEdge single_edge(double length_px, bool curved, double contrast_counts,
                                      std::uint64_t seed);
 

@@ -16,6 +16,7 @@ from benchmark_page import COLOURS, read, replace_between, table
 
 OURS = {"thermedge robust": "#0072B2", "thermedge fast": "#56B4E9", "thermedge paper": "#009E73"}
 PRESETS = {name.split()[1]: colour for name, colour in OURS.items()}
+CANNY = "Gaussian and Canny of OpenCV"  # in scaling.csv
 PEERS = {"OpenCV Canny": "#D55E00", "OpenCV EDPF": "#CC79A7"}
 MARKS = "osD^vP"
 RANGE_COUNTS = 130
@@ -90,6 +91,86 @@ def draw_noise(rows, path):
     axes.grid(alpha=0.25)
     figure.savefig(path, dpi=110)
     plt.close(figure)
+
+
+def names(rows, column):
+    """The values of a column, each once, in the order of the file."""
+    return list(dict.fromkeys(row[column] for row in rows))
+
+
+def draw_conditions(rows, path):
+    conditions = names(rows, "condition")
+    figure, axes = plt.subplots(figsize=(10, 5.6), layout="constrained")
+    shown = {**OURS, "Canny of counts": "#D55E00", "Canny after Gaussian": "#E69F00",
+             "Edge Drawing": "#CC79A7"}
+    for name in names(rows, "competitor"):
+        values = {row["condition"]: float(row["f"]) for row in rows if row["competitor"] == name}
+        errors = [1 - values.get(condition, math.nan) for condition in conditions]
+        if name in shown:
+            axes.scatter(errors, range(len(conditions)), color=shown[name], label=name, zorder=3,
+                         marker="o" if name in OURS else "s", s=45 if name in OURS else 30)
+        else:
+            axes.scatter(errors, range(len(conditions)), color="0.8", s=16, zorder=2)
+    axes.scatter([], [], color="0.8", s=16, label="the others")
+    axes.set_yticks(range(len(conditions)), conditions)
+    axes.invert_yaxis()
+    axes.set_xscale("log")
+    axes.set_xlim(0.7, 0.01)
+    shares = (0.4, 0.6, 0.8, 0.9, 0.95, 0.97, 0.98, 0.99)
+    axes.set_xticks([1 - share for share in shares], [f"{share:g}" for share in shares])
+    axes.minorticks_off()
+    axes.set_xlabel("F of the edge pixels")
+    axes.grid(alpha=0.25)
+    axes.legend(fontsize=8, loc="upper center", bbox_to_anchor=(0.42, -0.09), ncols=7)
+    axes.set_title(f"Conditions of users' frames: {rows[0]['frames']} random scenes each; thermedge "
+                   "with defaults, the others tuned for each condition", fontsize=10)
+    figure.savefig(path, dpi=110)
+    plt.close(figure)
+
+
+def conditions_table(rows):
+    conditions = names(rows, "condition")
+    values = {(row["condition"], row["competitor"]): float(row["f"]) for row in rows}
+    lines = [[name] + [f"{values[(condition, name)]:.3f}" if (condition, name) in values else ""
+                       for condition in conditions] for name in names(rows, "competitor")]
+    return table([""] + conditions, lines)
+
+
+def draw_noise_kinds(rows, path):
+    kinds = names(rows, "noise")
+    figure, axes = plt.subplots(figsize=(10, 6), layout="constrained")
+    marks = {"0.01": "v", "0.1": "o", "1": "^"}
+    for preset in names(rows, "preset"):
+        shift = -0.15 if preset == "robust" else 0.15
+        for most, mark in marks.items():
+            points = [(float(row["edges_per_frame"]), kinds.index(row["noise"]) + shift)
+                      for row in rows
+                      if (row["preset"], row["max_false_alarms"]) == (preset, most)]
+            axes.scatter(*zip(*points), marker=mark, s=26, color=PRESETS[preset], zorder=3,
+                         label=f"{preset}, {most} asked")
+    for most in marks:
+        axes.axvline(float(most), color="0.7", linewidth=1, linestyle="--")
+    axes.set_xscale("symlog", linthresh=0.01)
+    axes.set_xlim(-0.001, 100)
+    axes.set_xticks([0, 0.01, 0.1, 1, 10, 100], ["0", "0.01", "0.1", "1", "10", "100"])
+    axes.set_yticks(range(len(kinds)), kinds)
+    axes.invert_yaxis()
+    axes.set_xlabel("edges a frame")
+    axes.set_title("Edges found in frames that hold nothing but noise of other kinds", fontsize=10)
+    axes.grid(alpha=0.25)
+    axes.legend(fontsize=8, loc="upper right")
+    figure.savefig(path, dpi=110)
+    plt.close(figure)
+
+
+def noise_kinds_table(rows):
+    values = {(row["preset"], row["noise"], row["max_false_alarms"]):
+              f"{float(row['edges_per_frame']):.3g}" for row in rows}
+    columns = [(preset, most) for preset in names(rows, "preset")
+               for most in names(rows, "max_false_alarms")]
+    lines = [[kind] + [values[(preset, kind, most)] for preset, most in columns]
+             for kind in names(rows, "noise")]
+    return table(["noise"] + [f"`{preset}`, {most}" for preset, most in columns], lines)
 
 
 def label_heights(rows):
@@ -288,13 +369,22 @@ def draw_denoisers(rows, path):
     plt.close(figure)
 
 
+def stage_names(rows):
+    return [key[:-3] for key in rows[0] if key.endswith("_ms") and key != "cpu_ms"]
+
+
+def presets_on_one_thread(rows):
+    return [row for row in rows
+            if (row["width"], row["threads"]) == ("382", "1") and row["detector"] in PRESETS]
+
+
 def draw_scaling(rows, path):
     figure, (left, right) = plt.subplots(1, 2, figsize=(12, 4.6), layout="constrained")
     sizes = list(dict.fromkeys((row["width"], row["height"]) for row in rows))
     for preset, colour in PRESETS.items():
         for threads, line in (("1", "-"), ("2", "--")):
             points = [(int(row["width"]) * int(row["height"]) / 1e6, float(row["ms"]))
-                      for row in rows if (row["preset"], row["threads"]) == (preset, threads)]
+                      for row in rows if (row["detector"], row["threads"]) == (preset, threads)]
             left.plot(*zip(*points), color=colour, linestyle=line, marker="o", markersize=4,
                       label=f"{preset}, {threads} thread{'s' if threads == '2' else ''}")
     left.axhline(12.5, color="0.7", linewidth=1)
@@ -312,13 +402,13 @@ def draw_scaling(rows, path):
     left.grid(alpha=0.25)
     left.legend(fontsize=8)
 
-    shown = [row for row in rows if (row["width"], row["threads"]) == ("382", "1")]
-    stages = [key[:-3] for key in rows[0] if key.endswith("_ms")]
+    shown = presets_on_one_thread(rows)
+    stages = stage_names(rows)
     bottom = [0.0] * len(shown)
     colours = plt.get_cmap("tab20").colors
     for stage, colour in zip(stages, colours):
         values = [float(row[f"{stage}_ms"] or 0) for row in shown]
-        right.barh([row["preset"] for row in shown], values, left=bottom, color=colour, label=stage)
+        right.barh([row["detector"] for row in shown], values, left=bottom, color=colour, label=stage)
         bottom = [low + value for low, value in zip(bottom, values)]
     right.invert_yaxis()
     right.set_xlabel("ms a frame of 382x288 on one thread")
@@ -356,18 +446,39 @@ def scaling_table(rows):
     for preset in PRESETS:
         for threads in ("1", "2"):
             cells = [f"{float(row['ms']):.1f}" for row in rows
-                     if (row["preset"], row["threads"]) == (preset, threads)]
+                     if (row["detector"], row["threads"]) == (preset, threads)]
             lines.append([f"`{preset}`, {threads}"] + cells)
     sizes = list(dict.fromkeys(f"{row['width']}x{row['height']}" for row in rows))
     return table(["preset, threads"] + sizes, lines)
 
 
 def stages_table(rows):
-    shown = [row for row in rows if (row["width"], row["threads"]) == ("382", "1")]
-    stages = [key[:-3] for key in rows[0] if key.endswith("_ms")]
-    lines = [[f"`{row['preset']}`"] + [f"{float(row[stage + '_ms']):.2f}" if row[stage + '_ms'] else "" for stage in stages]
-             for row in shown]
+    shown = presets_on_one_thread(rows)
+    stages = stage_names(rows)
+    lines = [[f"`{row['detector']}`"] + [f"{float(row[stage + '_ms']):.2f}" if row[stage + '_ms']
+                                       else "" for stage in stages] for row in shown]
     return table(["preset"] + stages, lines)
+
+
+def ratios_table(rows):
+    """Processor time of the presets over that of Canny, and what two threads gain by the clock."""
+    value = {(row["detector"], row["threads"], row["width"]): row for row in rows}
+    if not any(row["detector"] == CANNY for row in rows):
+        return "OpenCV was not there."
+    lines = []
+    for width, height in (("382", "288"), ("640", "512"), ("1920", "1080")):
+        time = lambda name, threads, column: float(value[(name, threads, width)][column])
+        cells = [f"{time(CANNY, '1', 'cpu_ms'):.2f}"]
+        for preset in ("robust", "fast"):
+            for threads in ("1", "2"):
+                for column in ("cpu_ms", "ms"):
+                    ratio = time(preset, threads, column) / time(CANNY, threads, column)
+                    cells.append(f"{ratio:.1f}")
+        lines.append([f"{width}x{height}"] + cells)
+    header = [f"`{preset}`, {threads} thread{'s' if threads == '2' else ''}, {clock}"
+              for preset in ("robust", "fast") for threads in ("1", "2")
+              for clock in ("processor", "clock")]
+    return table(["", "Gaussian + Canny, processor ms"] + header, lines)
 
 
 def main():
@@ -376,15 +487,21 @@ def main():
     place = pathlib.Path(sys.argv[1])
     page = place.parent / "benchmarks.md"
     rows = {name: read(place / f"{name}.csv") for name in
-            ("edges", "single_edges", "false_alarms", "denoisers_and_detectors", "scaling")}
+            ("edges", "conditions", "single_edges", "false_alarms", "noise_kinds",
+             "denoisers_and_detectors", "scaling")}
     draw_noise(rows["edges"], place / "edges_over_noise.png")
     draw_time(rows["edges"], place / "edges_over_time.png")
+    draw_conditions(rows["conditions"], place / "conditions.png")
+    draw_noise_kinds(rows["noise_kinds"], place / "noise_kinds.png")
     draw_single_edges(rows["single_edges"], place / "single_edges.png")
     draw_false_alarms(rows["false_alarms"], place / "false_alarms.png")
     draw_denoisers(rows["denoisers_and_detectors"], place / "denoisers_and_detectors.png")
     draw_scaling(rows["scaling"], place / "scaling.png")
     replace_between(page, "noise table", noise_table(rows["edges"]))
     replace_between(page, "scenes table", scenes_table(rows["edges"]))
+    replace_between(page, "conditions table", conditions_table(rows["conditions"]))
+    replace_between(page, "noise kinds table", noise_kinds_table(rows["noise_kinds"]))
+    replace_between(page, "ratios table", ratios_table(rows["scaling"]))
     replace_between(page, "single edges table", single_edges_table(rows["single_edges"]))
     replace_between(page, "false alarms table", false_alarms_table(rows["false_alarms"]))
     replace_between(page, "scaling table", scaling_table(rows["scaling"]))

@@ -182,29 +182,46 @@ TEST(ExposedFrames, HaveTheNoiseAndStripesThatWereAskedFor) {
   EXPECT_LT(NoiseEstimator().measure(plain).column_sigma_counts, 1.5);
 }
 
+// The value half a pixel's width around a place.
+double value_at(ImageView<const float> image, eval::Point at) {
+  return image(static_cast<int>(std::lround(at.x)), static_cast<int>(std::lround(at.y)));
+}
+
 TEST(SingleEdge, IsAStepOfItsContrastAlongItsPoints) {
   for (const double length : {16.0, 64.0, 200.0}) {
     for (const bool curved : {false, true}) {
       const SingleEdge edge = single_edge(length, curved, 100, 11);
       ASSERT_EQ(edge.points.size(), static_cast<std::size_t>(2 * length) + 1);
-      float highest = 0;
-      for (int y = 0; y < edge.clean.height(); ++y) {
-        highest = std::max(
-            highest, *std::max_element(edge.clean.row(y), edge.clean.row(y) + edge.clean.width()));
-      }
-      const double least = length > 24 ? 93 : 55;  // short ones are all taper
-      EXPECT_GT(highest - kMiddleCounts, least);
-      EXPECT_LT(highest - kMiddleCounts, 100);
       const eval::Point middle = edge.points[edge.points.size() / 2];
-      const auto x = static_cast<int>(std::lround(middle.x));
-      const auto y = static_cast<int>(std::lround(middle.y));
-      EXPECT_GT(edge.clean(x, y) - kMiddleCounts, 15);
-      EXPECT_LT(edge.clean(x, y) - kMiddleCounts, 85);
+      EXPECT_NEAR(value_at(edge.clean, middle), kMiddleCounts, 35);
       const double chord = std::hypot(edge.points.back().x - edge.points.front().x,
                                       edge.points.back().y - edge.points.front().y);
       EXPECT_NEAR(chord, curved ? 2.4 * length * std::sin(1 / 2.4) : length, 0.01);
     }
   }
+}
+
+// Half of the step stands on either side, along the whole edge, and fades over 35 px.
+TEST(SingleEdge, HasStraightEndsAndFadesToBothSides) {
+  constexpr double kLength = 64;
+  const SingleEdge edge = single_edge(kLength, false, 100, 11);
+  const eval::Point first = edge.points.front();
+  const eval::Point last = edge.points.back();
+  const eval::Point along{(last.x - first.x) / kLength, (last.y - first.y) / kLength};
+  // Steps a way along the edge and beside it, less what the frame has.
+  const auto height = [&](double way, double beside) {
+    const eval::Point at{first.x + way * along.x - beside * along.y,
+                         first.y + way * along.y + beside * along.x};
+    return value_at(edge.clean, at) - kMiddleCounts;
+  };
+  for (const double way : {4.0, 32.0, 60.0}) {
+    EXPECT_NEAR(height(way, 4), 50 * std::exp(-4 / 35.0), 2.5) << way;
+    EXPECT_NEAR(height(way, -4), -50 * std::exp(-4 / 35.0), 2.5) << way;
+  }
+  EXPECT_NEAR(height(32, 20), 50 * std::exp(-20 / 35.0), 1.5);
+  EXPECT_NEAR(height(32, -20), -50 * std::exp(-20 / 35.0), 1.5);
+  EXPECT_NEAR(height(-4, 4), 0, 0.5);
+  EXPECT_NEAR(height(kLength + 4, -4), 0, 0.5);
 }
 
 }  // namespace
