@@ -69,7 +69,7 @@ inline Image<double> enlarged_twice(int width, int height, const WhiteNoise& whi
 // Smoothed by a Gaussian of 0.7 px.
 inline Image<double> after_gaussian(int width, int height, const WhiteNoise& white) {
   constexpr double kSigmaPx = 0.7;
-  constexpr int kReach = 3;
+  constexpr int kReach = 4;
   const auto noise = white.image(width + 2 * kReach, height + 2 * kReach);
   std::array<double, 2 * kReach + 1> weights{};
   double sum = 0;
