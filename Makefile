@@ -14,7 +14,7 @@ help:
 	@echo "make demo    edges of simulated frames, pictures under demo/"
 	@echo "make quick   the tests that take little time"
 	@echo "make test    all tests"
-	@echo "make check   format, static analysis, a build with Clang, tests under sanitizers"
+	@echo "make check   format, static analysis, tests built with Clang and under sanitizers"
 	@echo "make bench   speed and quality on this machine, beside OpenCV where it is installed (BENCH_SCENES=24: longer)"
 	@echo "make clean   remove what was built"
 

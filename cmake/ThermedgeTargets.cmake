@@ -9,6 +9,8 @@ target_compile_options(thermedge_settings INTERFACE
   -ffp-contract=off -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
   # GCC 12 reports overlaps in std::string that are none (its bug 105651).
   $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>
+  # In place of clang-tidy's bugprone-reserved-identifier, which costs a tenth of its time.
+  $<$<CXX_COMPILER_ID:Clang>:-Wreserved-identifier -Wreserved-macro-identifier>
   $<$<BOOL:${THERMEDGE_WERROR}>:-Werror>)
 if(THERMEDGE_SANITIZE)
   target_compile_options(thermedge_settings INTERFACE

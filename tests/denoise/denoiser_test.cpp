@@ -259,7 +259,7 @@ TEST(DenoiseTest, ExtremeRangesStayFinite) {
 }
 
 // Instrumented builds take minutes for these pictures and have nothing to add to their quality.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#ifdef THERMEDGE_SANITIZED
 constexpr bool kInstrumented = true;
 #else
 constexpr bool kInstrumented = false;

@@ -13,11 +13,15 @@
 #include <utility>
 
 #include "support/images.hpp"
+#include "support/noise_kinds.hpp"
 
 namespace thermedge {
 namespace {
 
 using test::noise_image;
+using test::picture;
+using test::rounded;
+using test::WhiteNoise;
 
 constexpr int kWidth = 384;  // whole blocks: enlarged noise is another one at odd places
 constexpr int kHeight = 288;
@@ -30,76 +34,10 @@ NoiseModel measured(ImageView<const std::uint16_t> frame,
   return model;
 }
 
-Image<std::uint16_t> rounded(ImageView<const double> values) {
-  Image<std::uint16_t> frame(values.width(), values.height());
-  for (int y = 0; y < values.height(); ++y) {
-    std::transform(values.row(y), values.row(y) + values.width(), frame.row(y), [](double value) {
-      return static_cast<std::uint16_t>(std::lround(std::clamp(value, 0.0, 65535.0)));
-    });
-  }
-  return frame;
-}
-
-// value(x, y) of every pixel.
-template <class F>
-Image<double> picture(int width, int height, F&& value) {
-  Image<double> image(width, height);
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      image(x, y) = value(x, y);
-    }
-  }
-  return image;
-}
+WhiteNoise around_8000(double sigma, unsigned seed) { return {8000, sigma, seed}; }
 
 Image<double> white(double sigma, unsigned seed) {
-  return noise_image<double>(kWidth, kHeight, 8000, sigma, seed);
-}
-
-// Means of 2 x 2 pixels: resampled half a pixel off to both sides.
-Image<double> resampled(double sigma, unsigned seed) {
-  const auto noise = noise_image<double>(kWidth + 1, kHeight + 1, 8000, sigma, seed);
-  return picture(kWidth, kHeight, [&](int x, int y) {
-    return (noise(x, y) + noise(x + 1, y) + noise(x, y + 1) + noise(x + 1, y + 1)) / 4;
-  });
-}
-
-// Bilinear, pixels a quarter to either side of where they came from.
-Image<double> enlarged_twice(double sigma, unsigned seed) {
-  const auto noise = noise_image<double>(kWidth / 2 + 2, kHeight / 2 + 2, 8000, sigma, seed);
-  return picture(kWidth, kHeight, [&](int x, int y) {
-    const int i = (x + 1) / 2;
-    const int j = (y + 1) / 2;
-    const double a = x % 2 == 0 ? 0.75 : 0.25;
-    const double b = y % 2 == 0 ? 0.75 : 0.25;
-    return (1 - b) * ((1 - a) * noise(i, j) + a * noise(i + 1, j)) +
-           b * ((1 - a) * noise(i, j + 1) + a * noise(i + 1, j + 1));
-  });
-}
-
-Image<double> behind_gaussian(double sigma, double blur_px, unsigned seed) {
-  constexpr int kReach = 4;
-  const auto noise = noise_image<double>(kWidth + 2 * kReach, kHeight + 2 * kReach, 0, sigma, seed);
-  std::array<double, 2 * kReach + 1> weights{};
-  double sum = 0;
-  for (int k = -kReach; k <= kReach; ++k) {
-    sum += weights[static_cast<std::size_t>(k + kReach)] =
-        std::exp(-0.5 * k * k / (blur_px * blur_px));
-  }
-  const auto along_rows = picture(kWidth, noise.height(), [&](int x, int y) {
-    double mean = 0;
-    for (std::size_t k = 0; k < weights.size(); ++k) {
-      mean += weights[k] / sum * noise(x + static_cast<int>(k), y);
-    }
-    return mean;
-  });
-  return picture(kWidth, kHeight, [&](int x, int y) {
-    double mean = 8000;
-    for (std::size_t k = 0; k < weights.size(); ++k) {
-      mean += weights[k] / sum * along_rows(x, y + static_cast<int>(k));
-    }
-    return mean;
-  });
+  return around_8000(sigma, seed).image(kWidth, kHeight);
 }
 
 // The orthonormal transform as its definition has it: of each coefficient the mean square over
@@ -224,20 +162,24 @@ TEST(NoiseModelEstimator, FindsTheLevelOfWhiteNoise) {
 }
 
 TEST(NoiseModelEstimator, FindsTheLevelOfNoiseThatWasResampled) {
-  expect_truth([](unsigned seed) { return resampled(8, seed); });
+  expect_truth(
+      [](unsigned seed) { return test::resampled(kWidth, kHeight, around_8000(8, seed)); });
 }
 
 TEST(NoiseModelEstimator, FindsTheLevelOfNoiseThatWasEnlarged) {
-  expect_truth([](unsigned seed) { return enlarged_twice(8, seed); });
+  expect_truth(
+      [](unsigned seed) { return test::enlarged_twice(kWidth, kHeight, around_8000(8, seed)); });
 }
 
-TEST(NoiseModelEstimator, FindsTheLevelOfNoiseBehindAGaussian) {
-  expect_truth([](unsigned seed) { return behind_gaussian(8, 0.7, seed); });
+TEST(NoiseModelEstimator, FindsTheLevelOfNoiseAfterAGaussian) {
+  expect_truth(
+      [](unsigned seed) { return test::after_gaussian(kWidth, kHeight, around_8000(8, seed)); });
 }
 
 // The frequency 0 cannot be measured: it goes on as the two before it say, by 1.3 at most.
 TEST(NoiseModelEstimator, ContinuesTheSpectrumToTheFrequencyZero) {
-  for (const auto& noise : {enlarged_twice(8, 34), white(8, 34)}) {
+  for (const auto& noise :
+       {test::enlarged_twice(kWidth, kHeight, around_8000(8, 34)), white(8, 34)}) {
     const NoiseModel model = measured(rounded(noise));
     const auto at = [&](std::size_t u, std::size_t v) {
       return static_cast<double>(model.spectrum[kNoiseBlockPx * v + u]);

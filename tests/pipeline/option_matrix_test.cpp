@@ -172,8 +172,8 @@ const std::vector<Counts>& frames() {
 }
 
 // The pixels, corners and score of each edge, whether kept or not, in an order of their own. What
-// follows from a missing false-alarm model alone (log10_nfa, the order of the edges, what is kept)
-// is left out: else every option of a denoiser would count as effective.
+// follows from its significance (log10_nfa, the order of the edges, which are kept) is left out: an
+// option is effective only where it changes the edges themselves.
 using EdgeShapes = std::vector<std::vector<double>>;
 
 EdgeShapes shapes_of(const EdgeSet& set) {
