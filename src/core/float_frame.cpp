@@ -6,11 +6,9 @@
 #include <cstddef>
 #include <limits>
 #include <numeric>
-#include <span>
 #include <string>
 
 #include "extent_simd.hpp"
-#include "order_statistics.hpp"
 
 namespace thermedge::detail {
 namespace {
@@ -44,26 +42,6 @@ Status check_finite(ImageView<const float> frame) {
     }
   }
   return {};
-}
-
-double median_of_blocks(ImageView<const float> frame, std::vector<double>& means) {
-  constexpr int kSide = 8;
-  const int across = frame.width() / kSide;
-  const int down = frame.height() / kSide;
-  means.assign(static_cast<std::size_t>(across) * static_cast<std::size_t>(down), 0);
-  if (means.empty()) {
-    return 0;
-  }
-  const int left = (frame.width() - kSide * across) / 2;
-  const int top = (frame.height() - kSide * down) / 2;
-  for (int y = 0; y < kSide * down; ++y) {
-    const float* row = frame.row(top + y) + left;
-    double* sums = means.data() + y / kSide * across;
-    for (int x = 0; x < kSide * across; ++x) {
-      sums[x / kSide] += static_cast<double>(row[x]);
-    }
-  }
-  return nth_value(std::span(means), means.size() / 2) / (kSide * kSide);
 }
 
 FrameRange frame_range(ImageView<const float> frame) {

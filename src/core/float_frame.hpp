@@ -1,9 +1,6 @@
 // Shared by the denoisers: mirrored borders and frames in units of their noise.
 #pragma once
 
-#include <cmath>
-#include <vector>
-
 #include "thermedge/image.hpp"
 #include "thermedge/noise_model.hpp"
 #include "thermedge/result.hpp"
@@ -39,16 +36,6 @@ struct FrameRange {
   double deviation = 0;  // largest distance of a pixel from the mean
 };
 [[nodiscard]] FrameRange frame_range(ImageView<const float> frame);
-
-// The median of the means of the blocks of 8 x 8 pixels that fit in, which small objects hardly
-// move; 0 where none fits. `means` is scratch.
-[[nodiscard]] double median_of_blocks(ImageView<const float> frame, std::vector<double>& means);
-
-// The multiple of `step` nearest to a value; the value itself for a step of 0. What a frame is
-// measured from should not move with every small object, or all that is rounded after it does.
-[[nodiscard]] inline double nearest_multiple(double value, double step) {
-  return step > 0 ? std::floor(value / step + 0.5) * step : value;
-}
 
 // Row `y` of `frame`, continued to both sides by mirroring: out[i] is pixel i - margin, for
 // 0 <= i < out_width. `y` may lie outside the frame.

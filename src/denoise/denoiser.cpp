@@ -101,22 +101,17 @@ struct Denoiser::Impl {
     if (!options.detrend) {
       return run_filters(in, noise, out, runner);
     }
-    // Over the reach of block matching such a slope is far below the noise.
-    constexpr double kSlopeStepSigmas = 0.01;  // a px
-    detrend.measure(in, kSlopeStepSigmas * noise.sigma);
+    detrend.measure(in);
     detrend.subtract(in, out);
     return run_filters(out, noise, out, runner).map([&] { detrend.add(out); });
   }
 
-  // Filters a copy in which the noise is even: distances from what is usual in the frame over the
-  // map.
+  // Filters a copy in which the noise is even: distances from the mean of the frame over the map.
   Status run_evened(ImageView<const float> in, const Told& noise, const NoiseLevelMap& map,
                     ImageView<float> out, ParallelRunner& runner) {
-    constexpr double kStepSigmas = 4;
-    const auto middle = static_cast<float>(detail::nearest_multiple(
-        detail::median_of_blocks(in, block_means), kStepSigmas * noise.sigma));
-    map.even_out(in, middle, 0, out);
-    return run(out, noise, out, runner).map([&] { map.undo_even_out(middle, out); });
+    const auto mean = static_cast<float>(detail::frame_range(in).mean);
+    map.even_out(in, mean, 0, out);
+    return run(out, noise, out, runner).map([&] { map.undo_even_out(mean, out); });
   }
 
   Status run_filters(ImageView<const float> in, const Told& noise, ImageView<float> out,
@@ -201,9 +196,7 @@ struct Denoiser::Impl {
       filter.prepare(in.width(), in.height());  // so that a flat first frame counts as one
       copy_pixels(in, out);
     } else {
-      constexpr double kStepSigmas = 32;
-      const double offset = detail::nearest_multiple(range.mean, kStepSigmas * sigma);
-      filter.run(in, {offset, sigma, noise.spectrum}, out, runner);
+      filter.run(in, {range.mean, sigma, noise.spectrum}, out, runner);
     }
     return {};
   }
@@ -215,7 +208,6 @@ struct Denoiser::Impl {
   detail::Bm3d bm3d;
   detail::BilateralFilter bilateral;
   detail::Detrender detrend;
-  std::vector<double> block_means;  // scratch
 };
 
 Denoiser::Denoiser(const DenoiseOptions& options, const DenoiseTuning& tuning)
@@ -226,7 +218,7 @@ Denoiser::~Denoiser() = default;
 
 std::size_t Denoiser::memory_bytes() const {
   return detail::memory_of(impl_->gaussian, impl_->nlm, impl_->bm3d, impl_->bilateral,
-                           impl_->detrend, impl_->block_means);
+                           impl_->detrend);
 }
 
 Status Denoiser::run(ImageView<const float> in, double sigma, ImageView<float> out,

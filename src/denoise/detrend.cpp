@@ -1,9 +1,6 @@
 #include "detrend.hpp"
 
-#include <algorithm>
 #include <cstddef>
-
-#include "float_frame.hpp"
 
 namespace thermedge::detail {
 void Detrender::prepare(int width, int height) {
@@ -14,7 +11,7 @@ void Detrender::prepare(int width, int height) {
   rows_.resize(static_cast<std::size_t>(height));
 }
 
-void Detrender::measure(ImageView<const float> frame, double step) {
+void Detrender::measure(ImageView<const float> frame) {
   prepare(frame.width(), frame.height());
   fill_pixels(blocks_.view(), 0.0);
   const int left = (frame.width() - kBlockPx * blocks_.width()) / 2;
@@ -35,25 +32,22 @@ void Detrender::measure(ImageView<const float> frame, double step) {
       add_slope(left + kBlockPx * x, blocks_(x, y) - blocks_(x - 1, y));
     }
   }
-  fill(robust_line(slopes_, distances_), step, columns_);
+  fill(robust_line(slopes_, distances_), columns_);
   slopes_.clear();
   for (int y = 1; y < blocks_.height(); ++y) {
     for (int x = 0; x < blocks_.width(); ++x) {
       add_slope(top + kBlockPx * y, blocks_(x, y) - blocks_(x, y - 1));
     }
   }
-  fill(robust_line(slopes_, distances_), step, rows_);
+  fill(robust_line(slopes_, distances_), rows_);
 }
 
 // The parabola of this slope, 0 in the middle.
-void Detrender::fill(const Line& slope, double step, std::vector<float>& profile) {
-  const double last = std::max(static_cast<double>(profile.size()) - 1, 1.0);
-  const double at_begin = nearest_multiple(slope.at(0.5), step);
-  const double at_end = nearest_multiple(slope.at(last + 0.5), step);
+void Detrender::fill(const Line& slope, std::vector<float>& profile) {
+  const double middle = (static_cast<double>(profile.size()) - 1) / 2;
   for (std::size_t i = 0; i < profile.size(); ++i) {
-    const double share = (static_cast<double>(i) / last + 0.5) / 2;  // half way from the middle
-    profile[i] = static_cast<float>((static_cast<double>(i) - last / 2) *
-                                    (at_begin + share * (at_end - at_begin)));
+    const double mean_place = (static_cast<double>(i) + middle) / 2;
+    profile[i] = static_cast<float>((static_cast<double>(i) - middle) * slope.at(mean_place + 0.5));
   }
 }
 

@@ -21,9 +21,7 @@ class Detrender {
   static constexpr int kBlockPx = 8;
 
   void prepare(int width, int height);
-  // Slopes, per px, are rounded to multiples of `step` (0: not at all): a small object that enters
-  // does not change them then.
-  void measure(ImageView<const float> frame, double step);
+  void measure(ImageView<const float> frame);
   // `out` may be `in`.
   void subtract(ImageView<const float> in, ImageView<float> out) const;
   void add(ImageView<float> frame) const;
@@ -34,7 +32,7 @@ class Detrender {
   }
 
  private:
-  static void fill(const Line& slope, double step, std::vector<float>& profile);
+  void fill(const Line& slope, std::vector<float>& profile);
   void apply(ImageView<const float> in, float sign, ImageView<float> out) const;
 
   Image<double> blocks_;  // means

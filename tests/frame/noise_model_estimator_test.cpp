@@ -113,7 +113,7 @@ void expect_nearly_even(const NoiseModel& model, double true_level) {
   for (int y = 0; y < model.map.nodes().height(); ++y) {
     for (int x = 0; x < model.map.nodes().width(); ++x) {
       EXPECT_NEAR(model.level_counts * static_cast<double>(model.map.nodes()(x, y)) / true_level, 1,
-                  0.19);
+                  0.17);
     }
   }
 }
