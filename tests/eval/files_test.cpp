@@ -82,8 +82,8 @@ TEST(EvaluateNpz, SaysWhatIsWrong) {
   for (const Case& bad : {
            Case{{{"other.npy", one_map()}},
                 ": should hold an array 'maps' of (annotators, height, width)"},
-           Case{{{"maps.npy", npy_file(header("<f8", "(1, 1, 1)"), std::string(8, '\0'))}},
-                ": maps.npy: an NPY of '<f8'"},
+           Case{{{"maps.npy", npy_file(header("<c16", "(1, 1, 1)"), std::string(16, '\0'))}},
+                ": maps.npy: an NPY of '<c16'"},
            Case{{{"maps.npy", npy_file(header("|u1", "(4,)"), "abcd")}}, ": maps.npy: an NPY of 1"},
            Case{{{"maps.npy", npy_file(header("|u1", "(1, 2, 3)"), "abc")}},
                 ": maps.npy: damaged NPY: the file ends early"},
