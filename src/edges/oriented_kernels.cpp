@@ -32,10 +32,12 @@ Tangent tangent_of(int direction) {
 int nearest_pixel(double value) { return static_cast<int>(std::lround(value * (1 - 1e-9))); }
 
 LineWeights line_weights(double across_px, double along_px, double cutoff_sigmas) {
-  const double variance = along_px * along_px - across_px * across_px;
-  LineWeights line{std::min(static_cast<int>(std::ceil(cutoff_sigmas * std::sqrt(variance))),
-                            OrientedFilterTuning::kMaxLineRadius),
-                   {}};
+  // None where a kernel is as long as it is wide, to within rounding.
+  const double variance = std::max(0.0, along_px * along_px - across_px * across_px);
+  LineWeights line{
+      static_cast<int>(std::min(std::ceil(cutoff_sigmas * std::sqrt(variance)),
+                                static_cast<double>(OrientedFilterTuning::kMaxLineRadius))),
+      {}};
   for (int k = 0; k <= line.radius; ++k) {
     line.weights[static_cast<std::size_t>(k)] =
         k == 0 ? 1.0F : static_cast<float>(portable_exp(-0.5 * k * k / variance));

@@ -252,10 +252,11 @@ Result<Array> parse_npy(const EncodedFile& file) {
         if (array.pages == 0) {
           return damaged(file, "NPY", "a stack without frames");
         }
-        if (array.data.size() / array.page_bytes() < array.pages) {
+        const std::size_t page_bytes = array.page_bytes();
+        if (page_bytes == 0 || array.data.size() / page_bytes < array.pages) {
           return damaged(file, "NPY", "the file ends early");
         }
-        array.data = array.data.first(array.pages * array.page_bytes());
+        array.data = array.data.first(array.pages * page_bytes);
         return {};
       })
       .map([&] { return array; });
