@@ -6,6 +6,7 @@
 #define HWY_TARGET_INCLUDE "bm3d_group_simd.cpp"
 #include "simd_config.hpp"
 #include "simd_dispatch.hpp"
+#include "simd_inline.hpp"
 
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
@@ -30,10 +31,10 @@ struct alignas(64) Spectra {
 
 // Walsh-Hadamard transform of kSize vectors, not scaled: twice it multiplies by kSize.
 template <int kSize>
-HWY_INLINE void walsh_hadamard(Floats* v) {
+THERMEDGE_KERNEL_INLINE void walsh_hadamard(Floats* v) {
   if constexpr (kSize > 1) {
     constexpr int kHalf = kSize / 2;
-    HWY_UNROLL(16)
+    THERMEDGE_KERNEL_UNROLL(16)
     for (int i = 0; i < kHalf; ++i) {
       const Floats a = v[i];
       const Floats b = v[i + kHalf];
@@ -46,8 +47,8 @@ HWY_INLINE void walsh_hadamard(Floats* v) {
 }
 
 template <int kSize>
-HWY_INLINE void load_all(const float* coefficients, Floats* v) {
-  HWY_UNROLL(32)
+THERMEDGE_KERNEL_INLINE void load_all(const float* coefficients, Floats* v) {
+  THERMEDGE_KERNEL_UNROLL(32)
   for (int i = 0; i < kSize; ++i) {
     v[i] = hn::Load(F32(), coefficients + i * kCoefficients);
   }
@@ -55,10 +56,10 @@ HWY_INLINE void load_all(const float* coefficients, Floats* v) {
 }
 
 template <int kSize>
-HWY_INLINE void store_all(Floats* v, float* coefficients) {
+THERMEDGE_KERNEL_INLINE void store_all(Floats* v, float* coefficients) {
   walsh_hadamard<kSize>(v);
   const Floats scale = hn::Set(F32(), 1.0F / kSize);
-  HWY_UNROLL(32)
+  THERMEDGE_KERNEL_UNROLL(32)
   for (int i = 0; i < kSize; ++i) {
     hn::Store(v[i] * scale, F32(), coefficients + i * kCoefficients);
   }
@@ -97,7 +98,7 @@ void aggregate(Spectra& spectra, std::span<const BlockPosition> group, float wei
     Block sum;
     load_block(sums, accumulator.sums.stride(), sum);
     for (std::size_t p = 0; p < kRowParts; ++p) {
-      HWY_UNROLL(8)
+      THERMEDGE_KERNEL_UNROLL(8)
       for (int row = 0; row < 8; ++row) {
         sum.part[p][row] = sum.part[p][row] + block.part[p][row] * scaled_window.part[p][row];
       }
@@ -118,7 +119,7 @@ int shrink_hard(Spectra& spectra, const HardThresholds& thresholds) {
     const Floats threshold = hn::LoadU(d, thresholds.all + c) * scale;
     load_all<kSize>(spectra.values + c, v);
     const Floats mean = v[0];
-    HWY_UNROLL(32)
+    THERMEDGE_KERNEL_UNROLL(32)
     for (int i = 0; i < kSize; ++i) {
       const auto large = hn::Abs(v[i]) > threshold;
       kept += hn::CountTrue(d, large);
@@ -152,7 +153,7 @@ float shrink_wiener(Spectra& noisy, const Spectra& basic, const BlockCoefficient
     const Floats noise = hn::LoadU(d, variances + c) * blocks;
     Floats factor[kSize];
     load_all<kSize>(basic.values + c, factor);
-    HWY_UNROLL(32)
+    THERMEDGE_KERNEL_UNROLL(32)
     for (int i = 0; i < kSize; ++i) {
       const Floats signal = factor[i] * factor[i];
       factor[i] = signal / (signal + noise);
@@ -163,7 +164,7 @@ float shrink_wiener(Spectra& noisy, const Spectra& basic, const BlockCoefficient
     Floats v[kSize];
     load_all<kSize>(noisy.values + c, v);
     Floats squares = hn::Zero(d);
-    HWY_UNROLL(32)
+    THERMEDGE_KERNEL_UNROLL(32)
     for (int i = 0; i < kSize; ++i) {
       squares = squares + factor[i] * factor[i];
       v[i] = v[i] * factor[i];

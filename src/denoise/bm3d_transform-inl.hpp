@@ -11,6 +11,8 @@
 #include <cstddef>
 #include <utility>
 
+#include "simd_inline.hpp"
+
 HWY_BEFORE_NAMESPACE();
 namespace thermedge::detail {
 namespace HWY_NAMESPACE {
@@ -27,8 +29,8 @@ struct Block {
   RowVec part[kRowParts][8];
 };
 
-HWY_INLINE void load_block(const float* from, std::ptrdiff_t stride, Block& block) {
-  HWY_UNROLL(8)
+THERMEDGE_KERNEL_INLINE void load_block(const float* from, std::ptrdiff_t stride, Block& block) {
+  THERMEDGE_KERNEL_UNROLL(8)
   for (int y = 0; y < 8; ++y) {
     for (std::size_t p = 0; p < kRowParts; ++p) {
       block.part[p][y] = hn::LoadU(Row(), from + y * stride + p * kRowLanes);
@@ -36,8 +38,8 @@ HWY_INLINE void load_block(const float* from, std::ptrdiff_t stride, Block& bloc
   }
 }
 
-HWY_INLINE void store_block(const Block& block, float* to, std::ptrdiff_t stride) {
-  HWY_UNROLL(8)
+THERMEDGE_KERNEL_INLINE void store_block(const Block& block, float* to, std::ptrdiff_t stride) {
+  THERMEDGE_KERNEL_UNROLL(8)
   for (int y = 0; y < 8; ++y) {
     for (std::size_t p = 0; p < kRowParts; ++p) {
       hn::StoreU(block.part[p][y], Row(), to + y * stride + p * kRowLanes);
@@ -47,7 +49,7 @@ HWY_INLINE void store_block(const Block& block, float* to, std::ptrdiff_t stride
 
 #if HWY_TARGET == HWY_SCALAR
 
-HWY_INLINE void transpose(Block& block) {
+THERMEDGE_KERNEL_INLINE void transpose(Block& block) {
   for (int y = 0; y < 8; ++y) {
     for (int x = 0; x < y; ++x) {
       std::swap(block.part[x][y], block.part[y][x]);
@@ -58,7 +60,7 @@ HWY_INLINE void transpose(Block& block) {
 #else
 
 // Transposes the 4 x 4 squares of four rows.
-HWY_INLINE void transpose_squares(const RowVec* in, RowVec* out) {
+THERMEDGE_KERNEL_INLINE void transpose_squares(const RowVec* in, RowVec* out) {
   const Row d;
   const hn::Repartition<double, Row> d64;
   const auto low01 = hn::BitCast(d64, hn::InterleaveLower(d, in[0], in[1]));
@@ -71,14 +73,14 @@ HWY_INLINE void transpose_squares(const RowVec* in, RowVec* out) {
   out[3] = hn::BitCast(d, hn::InterleaveUpper(d64, high01, high23));
 }
 
-HWY_INLINE void transpose(Block& block) {
+THERMEDGE_KERNEL_INLINE void transpose(Block& block) {
   RowVec top[kRowParts][4];
   RowVec bottom[kRowParts][4];
   for (std::size_t p = 0; p < kRowParts; ++p) {
     transpose_squares(block.part[p], top[p]);
     transpose_squares(block.part[p] + 4, bottom[p]);
   }
-  HWY_UNROLL(4)
+  THERMEDGE_KERNEL_UNROLL(4)
   for (int i = 0; i < 4; ++i) {
     if constexpr (kRowParts == 1) {
       block.part[0][i] = hn::ConcatLowerLower(Row(), bottom[0][i], top[0][i]);
@@ -107,7 +109,7 @@ struct Dct {
   static constexpr float kC6 = 0.191341716F;
   static constexpr float kC7 = 0.0975451610F;
 
-  static HWY_INLINE void forward(RowVec* x) {
+  static THERMEDGE_KERNEL_INLINE void forward(RowVec* x) {
     const auto s0 = x[0] + x[7];
     const auto s1 = x[1] + x[6];
     const auto s2 = x[2] + x[5];
@@ -128,7 +130,7 @@ struct Dct {
     x[7] = (times(kC7, d0) - times(kC5, d1)) + (times(kC3, d2) - times(kC1, d3));
   }
 
-  static HWY_INLINE void inverse(RowVec* x) {
+  static THERMEDGE_KERNEL_INLINE void inverse(RowVec* x) {
     const auto even = times(kC4, x[0] + x[4]);
     const auto odd = times(kC4, x[0] - x[4]);
     const auto even2 = times(kC2, x[2]) + times(kC6, x[6]);
@@ -165,7 +167,7 @@ struct Bior15 {
   static constexpr float kLevel2 = 0.5F;
   static constexpr float kLevel1 = 0.707106781F;  // 1 / sqrt(2)
 
-  static HWY_INLINE void forward(RowVec* x) {
+  static THERMEDGE_KERNEL_INLINE void forward(RowVec* x) {
     const auto d0 = x[0] - x[1];
     const auto d1 = x[2] - x[3];
     const auto d2 = x[4] - x[5];
@@ -190,7 +192,7 @@ struct Bior15 {
   }
 
   // Each step of `forward` undone; the halves of sums and differences sit in the factors.
-  static HWY_INLINE void inverse(RowVec* x) {
+  static THERMEDGE_KERNEL_INLINE void inverse(RowVec* x) {
     const auto d0 = times(0.5F / kLevel1, x[4]);
     const auto d1 = times(0.5F / kLevel1, x[5]);
     const auto d2 = times(0.5F / kLevel1, x[6]);
@@ -221,7 +223,7 @@ struct Bior15 {
 
 // Columns, transposition, rows: coefficients come out transposed.
 template <class Transform>
-HWY_INLINE void forward_2d(Block& block) {
+THERMEDGE_KERNEL_INLINE void forward_2d(Block& block) {
   for (auto& part : block.part) {
     Transform::forward(part);
   }
@@ -232,7 +234,7 @@ HWY_INLINE void forward_2d(Block& block) {
 }
 
 template <class Transform>
-HWY_INLINE void inverse_2d(Block& block) {
+THERMEDGE_KERNEL_INLINE void inverse_2d(Block& block) {
   for (auto& part : block.part) {
     Transform::inverse(part);
   }
