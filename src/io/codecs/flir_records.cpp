@@ -6,6 +6,7 @@
 #include <string>
 
 #include "codecs/file_format.hpp"
+#include "codecs/number_reader.hpp"
 
 namespace thermedge::io {
 namespace {
@@ -124,28 +125,6 @@ bool is_flir_part(const Segment& segment) {
 }
 
 }  // namespace
-
-std::optional<double> NumberReader::f32(std::size_t at) const {
-  const auto bits = u32(at);
-  if (!bits) {
-    return std::nullopt;
-  }
-  float value = 0;
-  std::memcpy(&value, &*bits, sizeof(value));
-  return static_cast<double>(value);
-}
-
-std::optional<std::uint32_t> NumberReader::number(std::size_t at, std::size_t bytes) const {
-  if (at > bytes_.size() || bytes_.size() - at < bytes) {
-    return std::nullopt;
-  }
-  std::uint32_t value = 0;
-  for (std::size_t i = 0; i < bytes; ++i) {
-    const std::size_t place = order_ == ByteOrder::kBig ? i : bytes - 1 - i;
-    value = value << 8 | std::to_integer<std::uint32_t>(bytes_[at + place]);
-  }
-  return value;
-}
 
 Result<FlirBlock> read_flir_block(const EncodedFile& file, std::size_t begin) {
   const Bytes block = file.bytes.subspan(begin);

@@ -15,21 +15,6 @@
 
 namespace thermedge::io {
 
-// Reads numbers from bytes of either order. Nothing where they lie outside.
-class NumberReader {
- public:
-  NumberReader(Bytes bytes, ByteOrder order) : bytes_(bytes), order_(order) {}
-  [[nodiscard]] std::optional<std::uint32_t> u16(std::size_t at) const { return number(at, 2); }
-  [[nodiscard]] std::optional<std::uint32_t> u32(std::size_t at) const { return number(at, 4); }
-  [[nodiscard]] std::optional<double> f32(std::size_t at) const;
-
- private:
-  [[nodiscard]] std::optional<std::uint32_t> number(std::size_t at, std::size_t bytes) const;
-
-  Bytes bytes_;
-  ByteOrder order_;
-};
-
 // The record of the raw picture.
 struct FlirRaw {
   std::uint32_t width = 0;   // px

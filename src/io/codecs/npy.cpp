@@ -8,6 +8,7 @@
 
 #include "codecs/codecs.hpp"
 #include "codecs/file_format.hpp"
+#include "codecs/number_reader.hpp"
 #include "codecs/picture_reader.hpp"
 #include "codecs/samples.hpp"
 
@@ -141,18 +142,13 @@ Result<std::string_view> header_text(const EncodedFile& file, std::size_t& data_
                                                 "; versions 1 to 3 are read");
   }
   const std::size_t text_at = kLengthAt + (version == 1 ? 2 : 4);
-  if (bytes.size() < text_at) {
+  const auto length =
+      NumberReader(bytes, ByteOrder::kLittle).number(kLengthAt, text_at - kLengthAt);
+  if (!length || *length > bytes.size() - text_at) {
     return damaged(file, "NPY", "the file ends early");
   }
-  std::size_t length = 0;
-  for (std::size_t at = text_at; at-- > kLengthAt;) {
-    length = length << 8 | std::to_integer<std::size_t>(bytes[at]);
-  }
-  if (length > bytes.size() - text_at) {
-    return damaged(file, "NPY", "the file ends early");
-  }
-  data_at = text_at + length;
-  return std::string_view(reinterpret_cast<const char*>(bytes.data()) + text_at, length);
+  data_at = text_at + *length;
+  return std::string_view(reinterpret_cast<const char*>(bytes.data()) + text_at, *length);
 }
 
 struct TypeName {

@@ -10,6 +10,7 @@
 
 #include "codecs/codecs.hpp"
 #include "codecs/file_format.hpp"
+#include "codecs/number_reader.hpp"
 #include "codecs/picture_reader.hpp"
 #include "codecs/samples.hpp"
 
@@ -151,12 +152,10 @@ constexpr std::size_t kSignatureBytes = 8;
 // where it was cut off.
 std::size_t end_of_picture(Bytes file, std::size_t begin) {
   constexpr std::size_t kAroundData = 12;  // length, name, checksum
+  const NumberReader numbers(file, ByteOrder::kBig);
   std::size_t at = begin + kSignatureBytes;
   while (at + kAroundData <= file.size()) {
-    std::size_t length = 0;
-    for (std::size_t i = 0; i < 4; ++i) {
-      length = length << 8 | std::to_integer<std::size_t>(file[at + i]);
-    }
+    const std::size_t length = *numbers.u32(at);
     if (length > file.size() - at - kAroundData) {
       break;
     }

@@ -32,7 +32,7 @@ unsigned bytes_of_type(std::uint64_t type) {
 }  // namespace
 
 TiffPageChain::TiffPageChain(Bytes file) : file_(file) {
-  big_endian_ = !file.empty() && file[0] == std::byte{'M'};
+  order_ = !file.empty() && file[0] == std::byte{'M'} ? ByteOrder::kBig : ByteOrder::kLittle;
   big_tiff_ = number(2, 2) == 43U;
 }
 
@@ -56,18 +56,6 @@ TiffPageChain::Link TiffPageChain::next() {
     milestone_ = offset_;
   }
   return Link::kPage;
-}
-
-std::optional<std::uint64_t> TiffPageChain::number(std::uint64_t at, unsigned bytes) const {
-  if (at > file_.size() || file_.size() - at < bytes) {
-    return std::nullopt;
-  }
-  std::uint64_t value = 0;
-  for (unsigned i = 0; i < bytes; ++i) {
-    const std::byte next = file_[at + (big_endian_ ? i : bytes - 1 - i)];
-    value = value << 8 | std::to_integer<std::uint64_t>(next);
-  }
-  return value;
 }
 
 std::optional<std::uint64_t> TiffPageChain::entries_of(std::uint64_t directory) const {

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "codecs/codecs.hpp"
+#include "codecs/number_reader.hpp"
 
 namespace thermedge::io {
 
@@ -31,9 +32,7 @@ class TiffPageChain {
   // The bytes of a text; empty where there is none.
   [[nodiscard]] std::string_view text(std::uint64_t directory, std::uint16_t tag) const;
 
-  [[nodiscard]] ByteOrder byte_order() const {
-    return big_endian_ ? ByteOrder::kBig : ByteOrder::kLittle;
-  }
+  [[nodiscard]] ByteOrder byte_order() const { return order_; }
 
  private:
   struct Entry {
@@ -42,13 +41,15 @@ class TiffPageChain {
     std::uint64_t data_at = 0;
   };
 
-  [[nodiscard]] std::optional<std::uint64_t> number(std::uint64_t at, unsigned bytes) const;
+  [[nodiscard]] std::optional<std::uint64_t> number(std::uint64_t at, unsigned bytes) const {
+    return NumberReader(file_, order_).number(at, bytes);
+  }
   [[nodiscard]] std::optional<std::uint64_t> entries_of(std::uint64_t directory) const;
   [[nodiscard]] std::optional<std::uint64_t> link_after(std::uint64_t directory) const;
   [[nodiscard]] std::optional<Entry> find(std::uint64_t directory, std::uint16_t tag) const;
 
   Bytes file_;
-  bool big_endian_ = false;
+  ByteOrder order_ = ByteOrder::kLittle;
   bool big_tiff_ = false;
   std::uint64_t offset_ = 0;
   std::uint64_t steps_ = 0;
