@@ -147,8 +147,8 @@ void SampleStore::turn_into_counts() {
 }
 
 Status store_packed(const EncodedFile& file, Bytes packed, SampleFormat format, ByteOrder order,
-                    int width, int height, SourceFrame& frame) {
-  SampleStore store(format, order, width, height, false, frame);
+                    int width, int height, SourceFrame& frame, bool is_inverted) {
+  SampleStore store(format, order, width, height, is_inverted, frame);
   const std::size_t row_bytes = static_cast<std::size_t>(width) * format.bytes();
   for (int y = 0; y < height; ++y) {
     store.put(0, y, packed.data() + static_cast<std::size_t>(y) * row_bytes,

@@ -65,7 +65,8 @@ class SampleStore {
 
 // The same for all pixels at once, that lie packed row by row.
 [[nodiscard]] Status store_packed(const EncodedFile& file, Bytes packed, SampleFormat format,
-                                  ByteOrder order, int width, int height, SourceFrame& frame);
+                                  ByteOrder order, int width, int height, SourceFrame& frame,
+                                  bool is_inverted = false);
 
 // After counts and values are filled: notes the pixels that are no numbers, and the counts that
 // stand for the values.

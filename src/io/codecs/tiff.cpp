@@ -190,15 +190,10 @@ class TiffReader final : public PictureReader {
     return check_claim(named, static_cast<std::uint64_t>(s.width),
                        static_cast<std::uint64_t>(s.height), s.samples.frame_bytes())
         .and_then([&] {
-          SampleStore store(s.samples, chosen_order(named.order, s.order), s.width, s.height,
-                            s.is_inverted, frame);
-          const std::size_t row_bytes = static_cast<std::size_t>(s.width) * s.samples.bytes();
-          const std::byte* rows = named.bytes.data() + s.data_at + page * s.page_bytes();
-          for (int y = 0; y < s.height; ++y) {
-            store.put(0, y, rows + static_cast<std::size_t>(y) * row_bytes,
-                      static_cast<std::size_t>(s.width), s.samples.bytes());
-          }
-          return store.finish(named);
+          const Bytes packed =
+              named.bytes.subspan(s.data_at + page * s.page_bytes(), s.page_bytes());
+          return store_packed(named, packed, s.samples, chosen_order(named.order, s.order), s.width,
+                              s.height, frame, s.is_inverted);
         });
   }
 
