@@ -88,19 +88,18 @@ Status read_raw(const EncodedFile& file, const FlirRaw& raw, SourceFrame& frame)
 }
 
 // FFF after FFF: a single picture, or a sequence.
-class FffReader final : public PictureReader {
+class FffReader final : public PicturesReader<FlirBlock> {
  public:
-  FffReader(const EncodedFile& file, const FlirBlock& first) : PictureReader(file) {
-    blocks_.push_back(first);
+  FffReader(const EncodedFile& file, const FlirBlock& first) : PicturesReader(file, first) {
     std::size_t next = next_block(first.end);
     while (!fault_ && next < file.bytes.size()) {
-      bytes_between_ += next - blocks_.back().end;
+      bytes_between_ += next - pictures_.back().end;
       const auto block = read_flir_block(file, next);
       if (!block) {
         fault_ = block.error();
         break;
       }
-      blocks_.push_back(*block);
+      pictures_.push_back(*block);
       next = next_block(block->end);
     }
     if (!fault_) {
@@ -108,23 +107,6 @@ class FffReader final : public PictureReader {
     }
   }
 
-  [[nodiscard]] std::size_t pages() const override { return blocks_.size() + (fault_ ? 1 : 0); }
-  [[nodiscard]] PageKind kind(std::size_t page) const override {
-    return page < blocks_.size() ? PageKind::kFrame : PageKind::kFault;
-  }
-  Status read(std::size_t page, const std::string& name, SourceFrame& frame) override {
-    if (page >= blocks_.size()) {
-      return failure(fault_->code, name + fault_->message.substr(file().name.size()));
-    }
-    const FlirBlock& block = blocks_[page];
-    return read_flir_raw(file(name), block.raw)
-        .and_then([&](const FlirRaw& raw) { return read_raw(file(name), raw, frame); })
-        .map([&] {
-          const FlirCamera camera = read_flir_camera(block.camera_info);
-          frame.counts_model = camera.counts_model;
-          frame.stamp_ns = camera.stamp_ns;
-        });
-  }
   [[nodiscard]] std::string note() const override {
     return bytes_between_ > 0
                ? std::to_string(bytes_between_) + " bytes between its pictures are passed over"
@@ -132,9 +114,20 @@ class FffReader final : public PictureReader {
   }
 
  private:
+  Status read_picture(const FlirBlock& block, const EncodedFile& named,
+                      SourceFrame& frame) const override {
+    return read_flir_raw(named, block.raw)
+        .and_then([&](const FlirRaw& raw) { return read_raw(named, raw, frame); })
+        .map([&] {
+          const FlirCamera camera = read_flir_camera(block.camera_info);
+          frame.counts_model = camera.counts_model;
+          frame.stamp_ns = camera.stamp_ns;
+        });
+  }
+
   // Zeros fill files up; anything else may be the beginning of a picture that was cut off.
   void note_left_over() {
-    const Bytes rest = file().bytes.subspan(blocks_.back().end);
+    const Bytes rest = file().bytes.subspan(pictures_.back().end);
     if (std::any_of(rest.begin(), rest.end(), [](std::byte b) { return b != std::byte{0}; })) {
       fault_ = left_over(file(), rest.size(), "the picture").value();
     }
@@ -148,9 +141,7 @@ class FffReader final : public PictureReader {
     return std::min(text.find(kMagic, at), bytes.size());
   }
 
-  std::vector<FlirBlock> blocks_;
   std::size_t bytes_between_ = 0;
-  std::optional<Error> fault_;  // of what follows the last good block
 };
 
 // The FFF in a JPEG.

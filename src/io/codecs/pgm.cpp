@@ -185,10 +185,9 @@ Result<Picture> find_picture(const EncodedFile& file, std::size_t begin) {
   return picture;
 }
 
-class PgmReader final : public PictureReader {
+class PgmReader final : public PicturesReader<Picture> {
  public:
-  PgmReader(const EncodedFile& file, const Picture& first) : PictureReader(file) {
-    pictures_.push_back(first);
+  PgmReader(const EncodedFile& file, const Picture& first) : PicturesReader(file, first) {
     while (!fault_) {
       const std::size_t next = skip_blanks_of(pictures_.back());
       if (next >= file.bytes.size()) {
@@ -198,31 +197,24 @@ class PgmReader final : public PictureReader {
     }
   }
 
-  [[nodiscard]] std::size_t pages() const override { return pictures_.size() + (fault_ ? 1 : 0); }
-  [[nodiscard]] PageKind kind(std::size_t page) const override {
-    return page < pictures_.size() ? PageKind::kFrame : PageKind::kFault;
-  }
-  Status read(std::size_t page, const std::string& name, SourceFrame& frame) override {
-    if (page >= pictures_.size()) {
-      return failure(fault_->code, name + fault_->message.substr(file().name.size()));
-    }
-    const Picture& picture = pictures_[page];
+ private:
+  Status read_picture(const Picture& picture, const EncodedFile& named,
+                      SourceFrame& frame) const override {
     const Header& header = picture.header;
     const auto width = static_cast<int>(header.width);
     const auto height = static_cast<int>(header.height);
     if (header.is_text) {
       SampleStore store({SampleKind::kUnsigned, header.bits()}, kNativeOrder, width, height, false,
                         frame);
-      return read_text(file(name), header, frame.counts).and_then([&](std::size_t) {
-        return store.finish(file(name));
+      return read_text(named, header, frame.counts).and_then([&](std::size_t) {
+        return store.finish(named);
       });
     }
-    return store_packed(file(name), file().bytes.subspan(picture.raster, header.raster_bytes()),
+    return store_packed(named, named.bytes.subspan(picture.raster, header.raster_bytes()),
                         {SampleKind::kUnsigned, header.bits()},
-                        chosen_order(file().order, ByteOrder::kBig), width, height, frame);
+                        chosen_order(named.order, ByteOrder::kBig), width, height, frame);
   }
 
- private:
   // Comments may follow a text picture.
   [[nodiscard]] std::size_t skip_blanks_of(const Picture& picture) const {
     return picture.header.is_text ? skip_blanks_and_comments(file().bytes, picture.end)
@@ -241,9 +233,6 @@ class PgmReader final : public PictureReader {
       fault_ = picture.error();
     }
   }
-
-  std::vector<Picture> pictures_;
-  std::optional<Error> fault_;  // of what follows the last good picture
 };
 
 }  // namespace

@@ -4,8 +4,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "codecs/codecs.hpp"
 #include "thermedge/io/source.hpp"
@@ -43,6 +45,32 @@ class PictureReader {
 
  private:
   EncodedFile file_;
+};
+
+// Pictures one after the other, each found by what `Picture` holds, and what is wrong with the rest
+// of the file where anything is.
+template <class Picture>
+class PicturesReader : public PictureReader {
+ public:
+  [[nodiscard]] std::size_t pages() const override { return pictures_.size() + (fault_ ? 1 : 0); }
+  [[nodiscard]] PageKind kind(std::size_t page) const override {
+    return page < pictures_.size() ? PageKind::kFrame : PageKind::kFault;
+  }
+  Status read(std::size_t page, const std::string& name, SourceFrame& frame) override {
+    if (page >= pictures_.size()) {
+      return failure(fault_->code, name + fault_->message.substr(file().name.size()));
+    }
+    return read_picture(pictures_[page], file(name), frame);
+  }
+
+ protected:
+  PicturesReader(const EncodedFile& file, const Picture& first)
+      : PictureReader(file), pictures_{first} {}
+  virtual Status read_picture(const Picture& picture, const EncodedFile& named,
+                              SourceFrame& frame) const = 0;
+
+  std::vector<Picture> pictures_;
+  std::optional<Error> fault_;  // of what follows the last good picture
 };
 
 using OpenedPicture = Result<std::unique_ptr<PictureReader>>;
