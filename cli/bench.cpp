@@ -60,9 +60,7 @@ struct BenchCommand : DetectorCommand {
 std::vector<io::SourceFrame> BenchCommand::read(const io::SourceOptions& source,
                                                 Console& report) const {
   std::vector<io::SourceFrame> frames;
-  io::SourceOptions noting = source;
-  noting.note = [&report](const std::string& note) { report.note(note); };
-  const auto opened = open_inputs(common.inputs, noting, common.validity);
+  const auto opened = open_inputs(common, source, report);
   if (!opened) {
     report.error(opened.error().message);
     return frames;

@@ -194,9 +194,7 @@ Result<double> parse_sigma(const std::string& text) {
 
 int for_each_frame(const CommonOptions& common, const io::SourceOptions& source, Console& report,
                    Room room, const std::function<Status(const io::SourceFrame&)>& handle) {
-  io::SourceOptions noting = source;
-  noting.note = [&report](const std::string& note) { report.note(note); };
-  auto opened = open_inputs(common.inputs, noting, common.validity);
+  auto opened = open_inputs(common, source, report);
   if (!opened) {
     return report.fail(opened.error());
   }

@@ -194,13 +194,15 @@ Result<Image<std::uint16_t>> read_mask(const std::string& path) {
 
 }  // namespace
 
-Result<std::unique_ptr<io::FrameSource>> open_inputs(const std::vector<std::string>& inputs,
+Result<std::unique_ptr<io::FrameSource>> open_inputs(const CommonOptions& common,
                                                      const io::SourceOptions& options,
-                                                     const ValidityInput& validity) {
-  io::SourceOptions uncropped = options;
-  uncropped.crop = {};
+                                                     Console& report) {
+  const ValidityInput& validity = common.validity;
+  io::SourceOptions of_chain = options;
+  of_chain.crop = {};
+  of_chain.note = [&report](const std::string& note) { report.note(note); };
   std::unique_ptr<io::FrameSource> frames =
-      io::crop_frames(std::make_unique<InputChain>(inputs, uncropped), options.crop);
+      io::crop_frames(std::make_unique<InputChain>(common.inputs, of_chain), options.crop);
   if (validity.empty()) {
     return frames;
   }
