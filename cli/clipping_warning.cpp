@@ -10,12 +10,11 @@ void ClippingWarning::frame(const std::string& source, ImageView<const std::uint
     return;
   }
   is_said_ = true;
-  console.warn(
-      fmt::format("{}: a gain of {:g} grey levels a count clips {:.1f} % of the pixels ({:.1f} % "
-                  "below, {:.1f} % "
-                  "above), and no edges can be seen there: {}{} (later frames are not checked)",
-                  source, gain_, 100 * clipped.both(), 100 * clipped.low, 100 * clipped.high,
-                  advice(frame), remedies_));
+  console.warn(fmt::format(
+      "{}: a gain of {:g} grey levels a count clips {:.1f} % of the pixels ({:.1f} % "
+      "below, {:.1f} % above), and no edges can be seen there: {}{} (later frames are not checked)",
+      source, gain_, 100 * clipped.both(), 100 * clipped.low, 100 * clipped.high, advice(frame),
+      remedies_));
 }
 
 // The largest round gain that clips little.

@@ -266,8 +266,11 @@ double SignificanceTest::Impl::explained(ImageView<const std::uint16_t> frame, c
   SideSlopes ahead = slopes(frame, edgels, range, 1, of_edgels);
   SideSlopes behind = slopes(frame, edgels, range, -1, of_edgels);
   // Beside the border of the frame the slope is taken to go on as it does on the other side.
-  if (!ahead.are_measured || !behind.are_measured) {
-    (ahead.are_measured ? behind : ahead) = ahead.are_measured ? ahead : behind;
+  if (!ahead.are_measured) {
+    ahead = behind;
+  }
+  if (!behind.are_measured) {
+    behind = ahead;
   }
   const double through = std::min((ahead.chord + behind.chord) / 2,
                                   own.most_uneven * std::min(ahead.chord, behind.chord));

@@ -111,12 +111,11 @@ struct SignificanceTuning {
 // Measured: docs/tuning.md ("Significance").
 //
 // Fills what measure_contrast fills (contrast.hpp), for edges that must prove themselves on the
-// frame before denoising. The contrast is up to 4.5 px to both sides, without
-// the edgels of the most and the least. z is the contrast less what
-// slopes of the scene make of it, in units of the standard deviation that it has along curves of
-// this length and direction where no edge is; that is measured on the frame itself, so stripes that
-// are left, a fixed pattern and noise that is smooth or rough all count for what they are. The
-// level at each place comes from the noise's map.
+// frame before denoising. The contrast is up to 4.5 px to both sides, without the edgels of the
+// most and the least. z is the contrast less what slopes of the scene make of it, in units of the
+// standard deviation that it has along curves of this length and direction where no edge is; that
+// is measured on the frame itself, so stripes that are left, a fixed pattern and noise that is
+// smooth or rough all count for what they are. The level at each place comes from the noise's map.
 //
 // log10_nfa: how many edges of noise as sure, as long and as strong there are in such a frame. The
 // frame's own candidates tell how many there are, how long and how strong: those with less z than
