@@ -10,7 +10,9 @@
 #include "commands.hpp"
 #include "detector_command.hpp"
 #include "input.hpp"
+#include "standard_output.hpp"
 #include "thermedge/detector.hpp"
+#include "thermedge/io/edges_file.hpp"
 #include "thermedge/simd.hpp"
 
 namespace thermedge::cli {
@@ -129,15 +131,19 @@ Result<BenchResult> BenchCommand::time(const std::vector<io::SourceFrame>& frame
 }
 
 Json times(Samples& samples) {
-  return {{"median_ms", samples.quantile(0.5)}, {"p99_ms", samples.quantile(0.99)}};
+  const auto rounded = [](double ms) { return std::round(1e4 * ms) / 1e4; };
+  return {{"median_ms", rounded(samples.quantile(0.5))},
+          {"p99_ms", rounded(samples.quantile(0.99))}};
 }
 
-void print_json(BenchResult& result) {
+std::string json_text(BenchResult& result) {
   Json stages = Json::object();
   for (std::size_t i = 0; i + 1 < result.stages.size(); ++i) {
     stages[result.stages[i].name] = times(result.stages[i]);
   }
-  const Json document = {{"width", result.width},
+  const double fps = 1000 / result.stages.back().quantile(0.5);
+  const Json document = {{"format_version", io::kFormatVersion},
+                         {"width", result.width},
                          {"height", result.height},
                          {"threads", result.threads},
                          {"simd", result.simd},
@@ -145,24 +151,27 @@ void print_json(BenchResult& result) {
                          {"frames", result.frames()},
                          {"stages", stages},
                          {"total", times(result.stages.back())},
-                         {"fps", 1000 / result.stages.back().quantile(0.5)}};
-  fmt::print("{}\n", document.dump());
+                         {"fps", std::round(100 * fps) / 100}};
+  return document.dump() + "\n";
 }
 
-void print_table(BenchResult& result) {
-  fmt::print("{}x{} pixels, {} thread{}, {}, {:.1f} MB of scratch memory, {} frame{} timed\n\n",
-             result.width, result.height, result.threads, result.threads == 1 ? "" : "s",
-             result.simd, static_cast<double>(result.memory_bytes) / 1e6, result.frames(),
-             result.frames() == 1 ? "" : "s");
-  fmt::print("{:<14}{:>12}{:>12}\n", "stage", "median ms", "p99 ms");
+std::string table(BenchResult& result) {
+  std::string text = fmt::format(
+      "{}x{} pixels, {} thread{}, {}, {:.1f} MB of scratch memory, {} frame{} timed\n\n",
+      result.width, result.height, result.threads, result.threads == 1 ? "" : "s", result.simd,
+      static_cast<double>(result.memory_bytes) / 1e6, result.frames(),
+      result.frames() == 1 ? "" : "s");
+  text += fmt::format("{:<14}{:>12}{:>12}\n", "stage", "median ms", "p99 ms");
   for (Samples& stage : result.stages) {
-    fmt::print("{:<14}{:>12.3f}{:>12.3f}\n", stage.name, stage.quantile(0.5), stage.quantile(0.99));
+    text += fmt::format("{:<14}{:>12.3f}{:>12.3f}\n", stage.name, stage.quantile(0.5),
+                        stage.quantile(0.99));
   }
   Samples& total = result.stages.back();
-  fmt::print(
-      "\n{:.1f} frames a second; 99 of 100 frames are ready in time for a camera of {:.1f} "
-      "Hz\n",
-      1000 / total.quantile(0.5), 1000 / total.quantile(0.99));
+  return text +
+         fmt::format(
+             "\n{:.1f} frames a second; 99 of 100 frames are ready in time for a camera of {:.1f} "
+             "Hz\n",
+             1000 / total.quantile(0.5), 1000 / total.quantile(0.99));
 }
 
 int BenchCommand::time_stages() const {
@@ -179,7 +188,7 @@ int BenchCommand::time_stages() const {
     if (!result) {
       return report.fail(result.error());
     }
-    json ? print_json(*result) : print_table(*result);
+    print(json ? json_text(*result) : table(*result));
     return report.exit_code();
   });
 }

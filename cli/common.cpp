@@ -9,6 +9,8 @@
 #include <system_error>
 
 #include "input.hpp"
+#include "signal_guard.hpp"
+#include "standard_output.hpp"
 #include "thermedge/io/config.hpp"
 #include "thermedge/io/source_options.hpp"
 #include "thermedge/simd.hpp"
@@ -49,7 +51,7 @@ tl::unexpected<Error> too_many_frames(const CommonOptions& common, std::size_t f
                   common.output, frames > 0 ? std::to_string(frames) : std::string("several")));
 }
 
-// Frames one after the other; errors of reading are reported on the way.
+// Frames one after the other, numbered over all inputs; errors of reading are reported on the way.
 class FrameReader {
  public:
   FrameReader(std::unique_ptr<io::FrameSource> source, Console& report)
@@ -60,22 +62,27 @@ class FrameReader {
     for (;;) {
       const auto more = source_->next(frame);
       if (more) {
+        frame.index = static_cast<std::int64_t>(done_);
         done_ += *more ? 1 : 0;
         return *more;
       }
       report_.error(more.error().message);
+      ++failures_;
       report_progress(++done_);
     }
   }
   void report_progress() { report_progress(done_); }
   [[nodiscard]] std::size_t size_hint() const { return source_->size_hint(); }
+  [[nodiscard]] std::size_t done() const { return done_; }
+  [[nodiscard]] std::size_t failures() const { return failures_; }
 
  private:
   void report_progress(std::size_t done) { report_.progress(done, source_->size_hint()); }
 
   std::unique_ptr<io::FrameSource> source_;
   Console& report_;
-  std::size_t done_ = 0;
+  std::size_t done_ = 0;  // those that cannot be read, too
+  std::size_t failures_ = 0;
 };
 
 }  // namespace
@@ -205,15 +212,27 @@ int for_each_frame(const CommonOptions& common, const io::SourceOptions& source,
   }
   io::SourceFrame frame;
   io::SourceFrame second;  // read ahead where there is room for one
+  std::size_t not_handled = 0;
+  SignalGuard signals;
+  signals.set_last_words(report.interruption_line(0, 0));
   while (frames.next(frame)) {
     if (room == Room::kOne && frames.next(second)) {
       return report.fail(too_many_frames(common, frames.size_hint()).value());
     }
+    signals.begin_frame();
     if (const Status status = handle(frame); !status) {
       report.error(frame.source + ": " + status.error().message);
+      ++not_handled;
+    }
+    if (standard_output_failed() || report.run_ended()) {
+      return kBadInput;
     }
     frames.report_progress();
+    signals.set_last_words(
+        report.interruption_line(frames.done(), frames.failures() + not_handled));
+    signals.end_frame();
   }
+  report.summarize(frames.done(), frames.failures() + not_handled);
   return report.exit_code();
 }
 

@@ -111,8 +111,11 @@ struct ConfigOptions {
 enum class Room : std::uint8_t { kMany, kOne };
 
 // Calls `handle(frame)` for each frame of the inputs; an error (of reading or handling) is reported
-// and the next frame follows. Where the output has room for one frame and there are more, that is
-// an error before the first one is handled. Returns the exit code.
+// and the next frame follows, unless standard output failed or the console says that the run ends.
+// SourceFrame::index is the frame's number in the run, those that cannot be read counted. Where the
+// output has room for one frame and there are more, that is an error before the first one is
+// handled. A signal ends the program between two frames, so `handle` keeps nothing back that would
+// be missed. At the end there is the console's summary. Returns the exit code.
 [[nodiscard]] int for_each_frame(const CommonOptions& common, const io::SourceOptions& source,
                                  Console& report, Room room,
                                  const std::function<Status(const io::SourceFrame&)>& handle);

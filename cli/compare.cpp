@@ -90,6 +90,7 @@ int CompareCommand::draw() const {
         if (!output) {
           return report.fail(output.error());
         }
+        report.set_results(common.output);
         auto sheet = comparison(detector).and_then(figures::ComparisonSheet::create);
         if (!sheet) {
           return report.fail(sheet.error());

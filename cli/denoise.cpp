@@ -1,6 +1,4 @@
 // `denoise`: frames with less noise.
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <memory>
 #include <optional>
@@ -8,6 +6,7 @@
 #include "commands.hpp"
 #include "common.hpp"
 #include "picture_output.hpp"
+#include "standard_output.hpp"
 #include "thermedge/frame_denoiser.hpp"
 #include "thermedge/io/config.hpp"
 #include "thermedge/io/source_options.hpp"
@@ -74,7 +73,7 @@ int DenoiseCommand::run() const {
     return console.fail(source.error());
   }
   if (config.dump) {
-    fmt::print("{}{}", io::dump_config(options), io::dump_source_options(*source));
+    print(io::dump_config(options) + io::dump_source_options(*source));
     return kGood;
   }
   if (const Status status = common.check(); !status) {
@@ -84,6 +83,7 @@ int DenoiseCommand::run() const {
   if (!output) {
     return console.fail(output.error());
   }
+  console.set_results(common.output);
   const auto runner = make_runner(common.threads);
   FrameDenoiser denoiser(options);
   return for_each_frame(

@@ -1,9 +1,8 @@
 #include "detector_command.hpp"
 
-#include <fmt/core.h>
-
 #include <vector>
 
+#include "standard_output.hpp"
 #include "thermedge/io/config.hpp"
 #include "thermedge/io/source_options.hpp"
 #include "thermedge/radiometry/planck.hpp"
@@ -102,7 +101,7 @@ int DetectorCommand::run(const Work& work) const {
     return report.fail(source.error());
   }
   if (config.dump) {
-    fmt::print("{}{}", io::dump_config(*chosen), io::dump_source_options(*source));
+    print(io::dump_config(*chosen) + io::dump_source_options(*source));
     return kGood;
   }
   if (const Status status = common.check(); !status) {

@@ -8,14 +8,18 @@ namespace thermedge::cli {
 void EdgeCommand::add_to(CLI::App& app) {
   DetectorCommand::add_to(app);
   app.add_option("--write", write,
-                 "for -o DIR: mask,strength,labels,json,svg,overlay,distance (default mask)");
+                 "for -o DIR: mask,strength,labels,json,csv,svg,overlay,distance (default mask)");
+  app.add_option("--points", points,
+                 "of each point in JSON: position,normal,strength,sigma (default position,normal)");
+  app.add_flag("--all-edges", all_edges,
+               "JSON and CSV: edges that were dropped, too, with the reason");
 }
 
 int EdgeCommand::run_on_frames(const Step& step) const {
   return run(
       [&](const DetectorOptions& options, const io::SourceOptions& source, Console& console) {
-        auto writer =
-            ResultWriter::create(common.output, write, common.input_files(source, {config.file}));
+        auto writer = ResultWriter::create({common.output, write, points, all_edges, common.quiet},
+                                           common.input_files(source, {config.file}));
         if (!writer) {
           return console.fail(writer.error());
         }
@@ -26,12 +30,17 @@ int EdgeCommand::run_on_frames(const Step& step) const {
         const PaperOptions* paper = options.paper();
         ClippingWarning clipping("--set grey_scale.gain=", paper ? paper->grey_scale.gain : 0,
                                  ", and --preset robust or fast scale nothing");
+        console.set_results(writer->place());
         Detection detection;
         return for_each_frame(
             common, source, console, writer->room(), [&](const io::SourceFrame& frame) {
               return step(*detector, frame, detection).and_then([&] {
+                detection.index = frame.index;
+                detection.stamp_ns = frame.stamp_ns;
                 clipping.frame(frame.source, frame.counts, detection.clipped, console);
-                return writer->write(detection, frame.counts, frame.source, frame.stem);
+                console.add_edges(detection.edges.kept);
+                Status status = writer->write(detection, frame.counts, frame.source, frame.stem);
+                return writer->is_stream() ? console.or_end_run(std::move(status)) : status;
               });
             });
       });

@@ -10,7 +10,9 @@
 namespace thermedge::cli {
 
 struct EdgeCommand : DetectorCommand {
-  std::string write;  // kinds of results
+  std::string write;                  // kinds of results
+  std::optional<std::string> points;  // what JSON has of each point
+  bool all_edges = false;
 
   void add_to(CLI::App& app);
 

@@ -1,6 +1,4 @@
 // `evaluate`: how good are these edges?
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <array>
 #include <filesystem>
@@ -12,6 +10,7 @@
 #include "common.hpp"
 #include "console.hpp"
 #include "evaluation_page.hpp"
+#include "standard_output.hpp"
 #include "thermedge/eval/evaluate.hpp"
 #include "thermedge/io/files.hpp"
 #include "thermedge/io/write.hpp"
@@ -111,7 +110,7 @@ int EvaluateCommand::run() {
     return report.fail(text.error());
   }
   if (output.empty()) {
-    fmt::print("{}", *text);
+    print(*text);
   } else if (const Status status = io::write_file(output, *text); !status) {
     return report.fail(status.error());
   }

@@ -35,7 +35,7 @@ class SimSource final : public io::FrameSource {
     frame.values.resize(0, 0);
     frame.valid.resize(0, 0);
     frame.counts_model.reset();
-    frame.stamp_ns = 0;
+    frame.stamp_ns = rendered->stamp_ns;
     frame.bits = 16;
     frame.source = spec_;
     frame.stem = stem_;

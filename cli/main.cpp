@@ -1,10 +1,13 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <string>
+#include <string_view>
 
 #include "commands.hpp"
 #include "console.hpp"
+#include "standard_output.hpp"
 #include "thermedge/simd.hpp"
 #include "thermedge/version.hpp"
 
@@ -63,14 +66,26 @@ int run(int argc, char** argv) {
   return exit_code;
 }
 
+// The exit code of a run that ended with `exit_code`, less what it printed in vain.
+int finish(int exit_code, int argc, char** argv) {
+  const Status status = finish_standard_output();
+  if (status) {
+    return exit_code;
+  }
+  const bool json_log = std::any_of(
+      argv, argv + argc, [](const char* word) { return std::string_view(word) == "--json-log"; });
+  return Console(false, json_log).fail(status.error());
+}
+
 }  // namespace
 }  // namespace thermedge::cli
 
 int main(int argc, char** argv) {
+  int exit_code = thermedge::cli::kBadInput;
   try {
-    return thermedge::cli::run(argc, argv);
+    exit_code = thermedge::cli::run(argc, argv);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "thermedge: error: %s\n", error.what());
-    return thermedge::cli::kBadInput;
   }
+  return thermedge::cli::finish(exit_code, argc, argv);
 }

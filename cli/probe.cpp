@@ -9,6 +9,7 @@
 #include "common.hpp"
 #include "figure_output.hpp"
 #include "probe_page.hpp"
+#include "standard_output.hpp"
 #include "thermedge/figures/probe_sheet.hpp"
 #include "thermedge/io/probe_file.hpp"
 #include "thermedge/io/write.hpp"
@@ -82,7 +83,7 @@ int ProbeCommand::run() const {
   if (const Status status = write_files(result, first_frame.view()); !status) {
     return report.fail(status.error());
   }
-  fmt::print("{}", json ? io::probe_to_json(result, common.inputs) : probe_page(result, name()));
+  print(json ? io::probe_to_json(result, common.inputs) : probe_page(result, name()));
   return exit_code;
 }
 

@@ -2,6 +2,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -9,7 +10,9 @@
 #include "clipping_warning.hpp"
 #include "commands.hpp"
 #include "common.hpp"
+#include "line_file.hpp"
 #include "picture_output.hpp"
+#include "thermedge/io/edges_file.hpp"
 #include "thermedge/io/write.hpp"
 #include "thermedge/radiometry/grey_scale.hpp"
 #include "thermedge/radiometry/stable_grey_scale.hpp"
@@ -84,21 +87,22 @@ std::string_view event_name(GreyScaleEvent event) {
   return "";
 }
 
-std::string state_line(const io::SourceFrame& frame, std::int64_t index,
-                       const GreyScaleState& state) {
+std::string state_line(const io::SourceFrame& frame, const GreyScaleState& state) {
+  using Json = nlohmann::ordered_json;
   const std::string_view event = event_name(state.event);
-  const nlohmann::ordered_json line = {
-      {"source", frame.source},
-      {"index", index},
-      {"gain", state.gain},
-      {"offset", state.offset},
-      {"clipped_low_share", state.clipped_low_share},
-      {"clipped_high_share", state.clipped_high_share},
-      {"event", event.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(event)}};
-  return line.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+  const auto rounded = [](double value) { return std::round(value * 1e6) / 1e6; };
+  const Json line = {{"format_version", io::kFormatVersion},
+                     {"source", frame.source},
+                     {"frame", frame.index},
+                     {"stamp_ns", frame.stamp_ns ? Json(*frame.stamp_ns) : Json(nullptr)},
+                     {"gain", rounded(state.gain)},
+                     {"offset", rounded(state.offset)},
+                     {"clipped_low_share", rounded(state.clipped_low_share)},
+                     {"clipped_high_share", rounded(state.clipped_high_share)},
+                     {"event", event.empty() ? Json(nullptr) : Json(event)}};
+  return line.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-// The scale of each frame is written even where some frames were bad.
 int ScaleCommand::run_stable(const io::SourceOptions& source, Console& report,
                              PictureOutput& output) const {
   StableGreyScaleOptions options = view;
@@ -113,24 +117,22 @@ int ScaleCommand::run_stable(const io::SourceOptions& source, Console& report,
   StableGreyScale stable_grey_scale(options);
   std::optional<ClippingWarning> clipping;  // of the gain that the first frame has chosen
   Image<std::uint8_t> levels;
-  std::string lines;
-  std::int64_t index = 0;
-  const int code = for_each_frame(
+  LineFile lines(*state_file);
+  return for_each_frame(
       common, source, report, output.room(), [&](const io::SourceFrame& frame) -> Status {
         levels.resize(frame.width(), frame.height());
         return stable_grey_scale.run(frame.counts, levels)
             .and_then([&](const GreyScaleState& state) {
-              lines += state_line(frame, index++, state);
               if (!clipping) {
                 clipping.emplace("--gain ", state.gain, "");
               }
               clipping->frame(frame.source, frame.counts,
                               {state.clipped_low_share, state.clipped_high_share}, report);
-              return write(frame, levels, output);
+              return write(frame, levels, output).and_then([&] {
+                return report.or_end_run(lines.write(state_line(frame, state)));
+              });
             });
       });
-  const Status status = io::write_file(*state_file, lines);
-  return status ? code : report.fail(status.error());
 }
 
 int ScaleCommand::run() const {
@@ -143,6 +145,7 @@ int ScaleCommand::run() const {
   if (!output) {
     return report.fail(output.error());
   }
+  report.set_results(common.output);
   return stable ? run_stable(*source, report, *output) : run_algorithm1(*source, report, *output);
 }
 

@@ -8,6 +8,8 @@
 
 #include "commands.hpp"
 #include "common.hpp"
+#include "line_file.hpp"
+#include "signal_guard.hpp"
 #include "thermedge/io/write.hpp"
 #include "thermedge/sim/scene.hpp"
 #include "thermedge/sim/truth_file.hpp"
@@ -107,31 +109,35 @@ Status SimulateCommand::write_frame(const sim::TrueFrame& frame, OutputDirectory
 Status SimulateCommand::write_all(sim::Renderer& renderer, Console& report) const {
   const auto runner = make_runner(threads);
   OutputDirectory directory(output);
-  std::string truth;
-  std::string trajectory;
-  const int count = renderer.options().frames;
-  for (int index = 0; index < count; ++index) {
-    Status status = renderer.render(index, *runner).and_then([&](const sim::TrueFrame& frame) {
-      if (writes("truth")) {
-        truth += sim::truth_line(frame);
-        trajectory += sim::trajectory_line(frame);
-      }
-      return write_frame(frame, directory);
-    });
+  const std::filesystem::path folder(output);
+  LineFile truth((folder / kTruthFile).string());
+  LineFile trajectory((folder / kTrajectoryFile).string());
+  const auto count = static_cast<std::size_t>(renderer.options().frames);
+  report.set_results(output);
+  SignalGuard signals;
+  signals.set_last_words(report.interruption_line(0, 0));
+  for (std::size_t done = 0; done < count;) {
+    signals.begin_frame();
+    Status status =
+        renderer.render(static_cast<int>(done), *runner).and_then([&](const sim::TrueFrame& frame) {
+          return write_frame(frame, directory).and_then([&]() -> Status {
+            if (!writes("truth")) {
+              return {};
+            }
+            return truth.write(sim::truth_line(frame)).and_then([&] {
+              return trajectory.write(sim::trajectory_line(frame));
+            });
+          });
+        });
     if (!status) {
       return status;
     }
-    report.progress(static_cast<std::size_t>(index) + 1, static_cast<std::size_t>(count));
+    report.progress(++done, count);
+    signals.set_last_words(report.interruption_line(done, 0));
+    signals.end_frame();
   }
-  if (!writes("truth")) {
-    return {};
-  }
-  std::error_code error;  // shows again, with its reason, when the files are written
-  std::filesystem::create_directories(output, error);
-  const std::filesystem::path folder(output);
-  return io::write_file((folder / kTruthFile).string(), truth).and_then([&] {
-    return io::write_file((folder / kTrajectoryFile).string(), trajectory);
-  });
+  report.summarize(count, 0);
+  return {};
 }
 
 // The scene may be a file. It may lie in the directory, whose folders have the pictures, but must

@@ -34,6 +34,7 @@ int StagesCommand::draw() const {
     if (!output) {
       return report.fail(output.error());
     }
+    report.set_results(common.output);
     auto sheet = figures::StagesSheet::create(options, panel_width);
     if (!sheet) {
       return report.fail(sheet.error());

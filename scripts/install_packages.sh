@@ -7,7 +7,7 @@ declare -A packages=(
   [build]="g++ make cmake ninja-build libhwy-dev libtbb-dev libexpected-dev libspng-dev libtiff-dev
            nlohmann-json3-dev libtomlplusplus-dev libcli11-dev libfmt-dev libgtest-dev libeigen3-dev
            pkg-config libcairo2-dev libfontconfig-dev fonts-open-sans libzip-dev
-           libmatio-dev python3"
+           libmatio-dev python3 python3-jsonschema"
   [check]="clang-14 clang-format-14 clang-tidy libclang-rt-14-dev llvm-14 libbenchmark-dev"
   [bench]="libbenchmark-dev python3-matplotlib"
 )

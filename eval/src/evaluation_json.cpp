@@ -8,8 +8,10 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr int kFormatVersion = 1;
+
 Json number(double value) {
-  constexpr double kDigits = 1e9;
+  constexpr double kDigits = 1e6;  // after the point: 1 in a million of a share, or of a px
   return std::isfinite(value) ? Json(std::round(value * kDigits) / kDigits) : Json(nullptr);
 }
 
@@ -66,7 +68,8 @@ std::string evaluation_to_json(const Evaluation& evaluation, const std::string& 
                                const std::string& truth) {
   const bool swept = evaluation.swept();
   const Scores& scores = evaluation.scores;
-  return line({{"found", found},
+  return line({{"format_version", kFormatVersion},
+               {"found", found},
                {"truth", truth},
                {"frames", evaluation.frames},
                {"binary", evaluation.binary},
@@ -86,7 +89,8 @@ std::string evaluation_to_json(const Evaluation& evaluation, const std::string& 
 
 std::string evaluation_to_json(const TruthlessEvaluation& evaluation, const std::string& found) {
   const bool repeated = evaluation.repeatability.points > 0;
-  return line({{"found", found},
+  return line({{"format_version", kFormatVersion},
+               {"found", found},
                {"frames", evaluation.frames},
                {"threshold", evaluation.threshold},
                {"edges_per_frame", to_json(evaluation.edges)},

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "thermedge/edge_set.hpp"
@@ -21,8 +22,8 @@ namespace thermedge {
 // result of one frame of that size.
 struct Detection {
   Preset preset = Preset::kRobust;
-  int width = 0, height = 0;  // px
-  std::int64_t stamp_ns = 0;  // of the frame, as are these
+  int width = 0, height = 0;             // px
+  std::optional<std::int64_t> stamp_ns;  // of the frame, as are these
   std::int64_t index = 0;
   std::uint32_t flags = 0;  // FrameFlag bits
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <type_traits>
 #include <variant>
 
@@ -45,9 +46,9 @@ struct Frame {
   // As large as the frame, nonzero where a pixel is a measurement; empty: everywhere. Other
   // pixels are filled smoothly from those around them, and no edge lies on them or beside them.
   ImageView<const std::uint8_t> valid;
-  std::int64_t stamp_ns = 0;  // when it was taken, of the source's clock; handed on
-  std::int64_t index = 0;     // number within its source; handed on
-  std::uint32_t flags = 0;    // FrameFlag bits; handed on
+  std::optional<std::int64_t> stamp_ns;  // when it was taken, of the source's clock; handed on
+  std::int64_t index = 0;                // number within its source; handed on
+  std::uint32_t flags = 0;               // FrameFlag bits; handed on
 
   [[nodiscard]] int width() const {
     return std::visit([](auto view) { return view.width(); }, pixels);

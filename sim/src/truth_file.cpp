@@ -9,6 +9,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr int kFormatVersion = 1;
+
 double rounded(double value, double steps) { return std::round(value * steps) / steps; }
 
 const char* name_of(EdgeKind kind) {
@@ -56,16 +58,21 @@ std::string truth_line(const TrueFrame& frame) {
   for (const TrueEdge& edge : frame.edges) {
     edges.push_back(to_json(edge));
   }
+  const auto pose_value = [](double value) { return rounded(value, 1e9); };
+  const auto& turn = frame.pose.orientation_xyzw;
   const Json line = {
+      {"format_version", kFormatVersion},
       {"frame", frame.index},
       {"stamp_ns", frame.stamp_ns},
       {"width", i.width},
       {"height", i.height},
       {"pose",
-       {{"position_m", {at.x, at.y, at.z}}, {"orientation_xyzw", frame.pose.orientation_xyzw}}},
+       {{"position_m", {pose_value(at.x), pose_value(at.y), pose_value(at.z)}},
+        {"orientation_xyzw",
+         {pose_value(turn[0]), pose_value(turn[1]), pose_value(turn[2]), pose_value(turn[3])}}}},
       {"intrinsics",
-       {{"fx_px", i.fx_px},
-        {"fy_px", i.fy_px},
+       {{"fx_px", rounded(i.fx_px, 1e4)},
+        {"fy_px", rounded(i.fy_px, 1e4)},
         {"cx_px", i.cx_px},
         {"cy_px", i.cy_px},
         {"k1", i.k1},

@@ -33,7 +33,8 @@ void begin(Detection& found, Preset preset, int width, int height) {
   found.preset = preset;
   found.width = width;
   found.height = height;
-  found.stamp_ns = found.index = 0;
+  found.stamp_ns.reset();
+  found.index = 0;
   found.flags = 0;
   found.corrections.invalid = {};
   found.corrections.noise = {};

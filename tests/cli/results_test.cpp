@@ -3,9 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "support/images.hpp"
 #include "support/program.hpp"
@@ -79,12 +82,14 @@ class Results : public ProgramTest {
 
 TEST_F(Results, EveryKindIsWhatTheLibraryGives) {
   EXPECT_EQ(output_of("detect frame.png --denoise gaussian -o out --write "
-                      "mask,strength,labels,json,svg,overlay"),
+                      "mask,strength,labels,json,csv,svg,overlay"),
             "");
   const Detection detection = found();
   ASSERT_GT(detection.edges.kept, 5U);
   EXPECT_EQ(timeless(text_of("out/json/frame.json")),
             timeless(io::edges_to_json(detection, "frame.png")));
+  EXPECT_EQ(text_of("out/csv/frame.csv"),
+            std::string(io::edges_csv_header()) + io::edges_to_csv_rows(detection));
   EXPECT_EQ(text_of("out/svg/frame.svg"), io::edges_to_svg(detection, "frame.png"));
   Image<std::uint8_t> levels(kWidth, kHeight);
   draw_mask(detection.edges, levels);
@@ -173,6 +178,117 @@ TEST_F(Results, TheSameJsonInAFileOnStandardOutputAndInADirectory) {
   EXPECT_EQ(line["source"], "frame.png");
   EXPECT_EQ(timeless(text_of("one.json")), line);
   EXPECT_EQ(timeless(text_of("out/json/frame.json")), line);
+}
+
+TEST_F(Results, JsonLinesAndCsvHoldAllFrames) {
+  const std::string frames = "frame.png frame.png --denoise gaussian --all-edges ";
+  ASSERT_EQ(output_of("detect " + frames + "-o x.jsonl --points strength,normal,sigma"), "");
+  ASSERT_EQ(output_of("detect " + frames + "-o x.csv"), "");
+  ASSERT_EQ(output_of("detect " + frames + "-o out --write csv"), "");
+  const std::string csv = text_of("x.csv");
+  const std::string header(io::edges_csv_header());
+  EXPECT_EQ(text_of("out/csv/frame.csv").size() + text_of("out/csv/frame_2.csv").size(),
+            csv.size() + header.size());
+  std::istringstream rows(csv);
+  std::istringstream lines(text_of("x.jsonl"));
+  std::string row;
+  std::getline(rows, row);
+  EXPECT_EQ(row + "\n", header);
+  const auto expect_rows = [&](const nlohmann::json& frame, const nlohmann::json& edge,
+                               const std::string& status) {
+    for (std::size_t i = 0; i < edge["points"].size(); ++i) {
+      ASSERT_TRUE(std::getline(rows, row));
+      std::vector<std::string> cells(1);
+      for (const char c : row) {
+        c == ',' ? void(cells.emplace_back()) : cells.back().push_back(c);
+      }
+      ASSERT_EQ(cells.size(), 14U);
+      const auto number = [&](std::size_t cell) {
+        return std::strtod(cells[cell].c_str(), nullptr);
+      };
+      EXPECT_EQ(number(0), frame["frame"]);
+      EXPECT_EQ(number(2), edge["index"]);
+      EXPECT_EQ(cells[3], status);
+      EXPECT_EQ(number(4), edge["score"]);
+      EXPECT_EQ(number(6), i);
+      EXPECT_EQ(nlohmann::json({number(7), number(8)}), edge["points"][i]);
+      EXPECT_EQ(nlohmann::json({number(9), number(10)}), edge["normals"][i]);
+      EXPECT_EQ(number(11), edge["strength_counts_per_px"][i]);
+      EXPECT_EQ(number(12), edge["position_sigma_px"][i]);
+      const auto& corners = edge["corners"];
+      EXPECT_EQ(number(13) != 0, std::find(corners.begin(), corners.end(), i) != corners.end());
+    }
+  };
+  int frame_number = 0;
+  for (std::string line; std::getline(lines, line); ++frame_number) {
+    const auto frame = nlohmann::json::parse(line);
+    EXPECT_EQ(frame["frame"], frame_number);
+    EXPECT_EQ(frame["dropped_edges"].size() + frame["edges"].size(),
+              frame["stats"]["edges_found"].get<std::size_t>());
+    EXPECT_GT(frame["dropped_edges"].size(), 0U);
+    for (const auto& edge : frame["edges"]) {
+      expect_rows(frame, edge, "kept");
+    }
+    for (const auto& edge : frame["dropped_edges"]) {
+      expect_rows(frame, edge, edge["reason"]);
+    }
+  }
+  EXPECT_EQ(frame_number, 2);
+  EXPECT_FALSE(std::getline(rows, row));
+}
+
+// A normal points to the side with more counts, and is as long as 1.
+TEST_F(Results, NormalsPointToTheWarmerSide) {
+  const auto json = timeless(output_of("detect frame.png --denoise gaussian -o - --keep 5"));
+  int warmer = 0;
+  int all = 0;
+  for (const auto& edge : json["edges"]) {
+    for (std::size_t i = 0; i < edge["points"].size(); ++i) {
+      const double x = edge["points"][i][0], y = edge["points"][i][1];
+      const double nx = edge["normals"][i][0], ny = edge["normals"][i][1];
+      EXPECT_NEAR(std::hypot(nx, ny), 1, 2e-4);
+      const auto at = [&](double step) {
+        const int u = std::clamp(static_cast<int>(std::lround(x + step * nx)), 0, kWidth - 1);
+        const int v = std::clamp(static_cast<int>(std::lround(y + step * ny)), 0, kHeight - 1);
+        return counts_(u, v);
+      };
+      warmer += at(2) > at(-2) ? 1 : 0;
+      ++all;
+    }
+  }
+  ASSERT_GT(all, 100);
+  EXPECT_GT(warmer, 0.95 * all);
+}
+
+// Fields that were not there in files of the first version of the program change nothing.
+TEST_F(Results, OldJsonIsEvaluatedAsNewJsonIs) {
+  ASSERT_EQ(output_of("simulate desk -o s --frames 2 --seed 3 --set width=96 --set height=72"), "");
+  ASSERT_EQ(output_of("detect s/counts --denoise gaussian -o new.jsonl --all-edges --points "
+                      "normal,strength,sigma"),
+            "");
+  std::istringstream lines(text_of("new.jsonl"));
+  std::string old;
+  for (std::string line; std::getline(lines, line);) {
+    auto frame = nlohmann::json::parse(line);
+    for (const char* key : {"format_version", "frame", "stamp_ns", "dropped_edges"}) {
+      EXPECT_EQ(frame.erase(key), 1U) << key;
+    }
+    for (auto& edge : frame["edges"]) {
+      for (const char* key : {"normals", "strength_counts_per_px", "position_sigma_px"}) {
+        EXPECT_EQ(edge.erase(key), 1U) << key;
+      }
+      edge["score"] = edge["score"].get<double>() + 1e-9 / 3;  // numbers had all their digits
+    }
+    old += frame.dump() + "\n";
+  }
+  write_text(path("old.jsonl"), old);
+  const auto scores = [&](const std::string& name) {
+    auto json = timeless(output_of("evaluate " + name + " s/truth.jsonl --json"));
+    EXPECT_GT(json["f"], 0.3);
+    json.erase("found");
+    return json;
+  };
+  EXPECT_EQ(scores("old.jsonl"), scores("new.jsonl"));
 }
 
 TEST_F(Results, WithoutAnOutputALineTellsTheNumbers) {

@@ -45,7 +45,7 @@ json trace(const std::string& map, Preset preset) {
   return to_json(detector.trace(edges), map);
 }
 
-// Results are promised to be equal to the bit; the tolerance is for the decimals of the file only.
+// Results are promised to be equal to the bit; the tolerance is for the digits of the file only.
 void expect_same_number(const json& found, const json& wanted, const std::string& what) {
   ASSERT_EQ(found.is_null(), wanted.is_null()) << what;
   if (!wanted.is_null()) {
@@ -64,7 +64,8 @@ void expect_same_edges(const json& found, const std::string& file) {
     const json& a = found["edges"][i];
     const json& b = wanted["edges"][i];
     const std::string what = "edge " + std::to_string(i);
-    for (const char* key : {"index", "rank", "closed", "corners", "connected", "points"}) {
+    for (const char* key :
+         {"index", "rank", "closed", "corners", "connected", "points", "normals"}) {
       EXPECT_EQ(a[key], b[key]) << what << " " << key;
     }
     for (const char* key : {"score", "es", "z", "log10_nfa", "length_px", "contrast_counts"}) {

@@ -52,11 +52,128 @@ TEST(EdgesJson, HoldsTheKeptEdges) {
   EXPECT_EQ(edge["connected"], nlohmann::json::parse("[1]"));
   EXPECT_EQ(edge["score"], 1e-7);
   EXPECT_TRUE(edge["z"].is_null());
-  EXPECT_EQ(edge["contrast_counts"], 12.346);
+  EXPECT_EQ(edge["contrast_counts"], 12.35);
   EXPECT_EQ(edge["contrast_sigmas"], 2.5);
   EXPECT_TRUE(edge["closed"]);
   EXPECT_EQ(json["junctions"], nlohmann::json::parse("[[8,1]]"));
   EXPECT_EQ(json["stats"]["edges_found"], 2);
+}
+
+// With what was measured at the points, each of another size.
+Detection with_measures() {
+  Detection detection = two_edges();
+  Edgels& edgels = detection.edges.edgels;
+  edgels.nx = {0.6F, -1, 0, 0.70710678F, -0.00001F};
+  edgels.ny = {0.8F, 0, 1, -0.70710678F, 1};
+  edgels.magnitude_counts = {1.23456F, 123.456F, 12345.6F, 0, 7};
+  edgels.position_sigma_px = {0.0123456F, 0.123456F, 1.23456F, 0.5F, 0.25F};
+  return detection;
+}
+
+nlohmann::json parsed(const Detection& detection, const EdgesFileOptions& options = {}) {
+  return nlohmann::json::parse(edges_to_json(detection, "a.png", options));
+}
+
+TEST(EdgesJson, SaysWhichFrameItIsAndWhenItWasTaken) {
+  Detection detection = two_edges();
+  EXPECT_EQ(parsed(detection)["format_version"], kFormatVersion);
+  EXPECT_EQ(parsed(detection)["frame"], 0);
+  EXPECT_TRUE(parsed(detection)["stamp_ns"].is_null());
+  detection.index = 41;
+  detection.stamp_ns = 0;
+  EXPECT_EQ(parsed(detection)["frame"], 41);
+  EXPECT_EQ(parsed(detection)["stamp_ns"], 0) << "is a time as good as any";
+  detection.stamp_ns = 1724423364092000001;
+  EXPECT_EQ(parsed(detection)["stamp_ns"], 1724423364092000001);
+}
+
+TEST(EdgesJson, HasOfEachPointWhatIsAskedFor) {
+  const Detection detection = with_measures();
+  const auto usual = parsed(detection)["edges"][0];
+  EXPECT_EQ(usual["normals"], nlohmann::json::parse("[[0.6,0.8],[-1.0,0.0],[0.0,1.0]]"));
+  EXPECT_FALSE(usual.contains("strength_counts_per_px"));
+  EXPECT_FALSE(usual.contains("position_sigma_px"));
+  EdgesFileOptions options;
+  options.normals = false;
+  options.strengths = options.position_sigmas = true;
+  const auto edge = parsed(detection, options)["edges"][0];
+  EXPECT_FALSE(edge.contains("normals"));
+  EXPECT_EQ(edge["strength_counts_per_px"], nlohmann::json({1.235, 123.5, 12350.0}));
+  EXPECT_EQ(edge["position_sigma_px"], nlohmann::json({0.0123, 0.123, 1.23}));
+  EXPECT_EQ(edge["points"], usual["points"]);
+}
+
+TEST(EdgesJson, MeasuresNothingAtThePointsOfAnEdgeMap) {
+  Detection detection = with_measures();
+  detection.edges.edges[0].contrast_counts = std::numeric_limits<double>::quiet_NaN();
+  EdgesFileOptions options;
+  options.strengths = options.position_sigmas = true;
+  const auto edge = parsed(detection, options)["edges"][0];
+  for (const char* key : {"normals", "strength_counts_per_px", "position_sigma_px"}) {
+    EXPECT_TRUE(edge.contains(key) && edge[key].is_null()) << key;
+  }
+}
+
+TEST(EdgesJson, NamesTheReasonOfEachDroppedEdge) {
+  Detection detection = with_measures();
+  detection.edges.edges[1].status = EdgeStatus::kLowContrast;
+  detection.edges.edges.push_back(detection.edges.edges[1]);
+  detection.edges.edges[2].status = EdgeStatus::kInsignificant;
+  EXPECT_FALSE(parsed(detection).contains("dropped_edges"));
+  EdgesFileOptions options;
+  options.dropped_edges = true;
+  const auto json = parsed(detection, options);
+  EXPECT_EQ(json["edges"], parsed(detection)["edges"]);
+  ASSERT_EQ(json["dropped_edges"].size(), 2U);
+  EXPECT_EQ(json["dropped_edges"][0]["reason"], "low_contrast");
+  EXPECT_EQ(json["dropped_edges"][1]["reason"], "insignificant");
+  EXPECT_EQ(json["dropped_edges"][0]["points"], nlohmann::json::parse("[[10,5],[12.346,5]]"));
+  EXPECT_EQ(json["dropped_edges"][0]["normals"][1], nlohmann::json({0.0, 1.0}));
+}
+
+TEST(EdgesJson, HasTheDigitsThatNumbersDeserve) {
+  Detection detection = two_edges();
+  Edge& edge = detection.edges.edges[0];
+  edge.score = 2.866765877271155;
+  edge.es = 0.00123456789;
+  edge.z = -193.69612;
+  edge.log10_nfa = -7127.4923;
+  edge.length_px = 1534.42612;
+  const std::string text = edges_to_json(detection, "");
+  for (const char* part : {"\"score\":2.8668,", "\"es\":0.0012346,", "\"z\":-193.7,",
+                           "\"log10_nfa\":-7127.0,", "\"length_px\":1534.4,"}) {
+    EXPECT_NE(text.find(part), std::string::npos) << part << text;
+  }
+}
+
+TEST(EdgesCsv, HasARowForEachEdgelOfKeptEdges) {
+  Detection detection = with_measures();
+  detection.index = 7;
+  const std::string header(edges_csv_header());
+  EXPECT_EQ(header,
+            "frame,stamp_ns,edge,status,score,contrast_counts,point,x_px,y_px,normal_x,normal_y,"
+            "strength_counts_per_px,position_sigma_px,is_corner\n");
+  EXPECT_EQ(edges_to_csv_rows(detection),
+            "7,,0,kept,1e-07,12.35,0,1,1,0.6,0.8,1.235,0.0123,1\n"
+            "7,,0,kept,1e-07,12.35,1,8,1,-1,0,123.5,0.123,1\n"
+            "7,,0,kept,1e-07,12.35,2,4,6,0,1,12350,1.23,1\n");
+  detection.stamp_ns = 12500000;
+  detection.edges.edges[0].contrast_counts = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(edges_to_csv_rows(detection).substr(0, 42),
+            "7,12500000,0,kept,1e-07,,0,1,1,,,,,1\n7,125");
+}
+
+TEST(EdgesCsv, NamesTheReasonOfDroppedEdges) {
+  Detection detection = with_measures();
+  detection.edges.edges[1].status = EdgeStatus::kBeyondBudget;
+  EdgesFileOptions options;
+  options.dropped_edges = true;
+  const std::string rows = edges_to_csv_rows(detection, options);
+  EXPECT_TRUE(rows.starts_with(edges_to_csv_rows(detection)));
+  EXPECT_TRUE(
+      rows.ends_with("0,,1,beyond_budget,0,0,0,10,5,0.7071,-0.7071,0,0.5,1\n"
+                     "0,,1,beyond_budget,0,0,1,12.346,5,0,1,7,0.25,1\n"))
+      << rows;
 }
 
 TEST(EdgesJson, RoundsPointsToAThousandth) {

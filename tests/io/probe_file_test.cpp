@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "support/recordings.hpp"
@@ -12,6 +13,8 @@ namespace thermedge::io {
 namespace {
 
 using Json = nlohmann::json;
+
+constexpr double kDigits = 1e-5;  // numbers have six
 
 RecordingReport report_of(const std::string& scene) {
   RecordingProbe recording;
@@ -27,13 +30,18 @@ TEST(ProbeFile, JsonHasWhatIsPromised) {
   EXPECT_EQ(json["inputs"], Json({"a", "b"}));
   EXPECT_EQ(json["frames"], 3);
   EXPECT_EQ(json["width"], 96);
-  EXPECT_NEAR(json["noise"]["sigma_counts"], report.sigma_counts, 1e-6);
-  EXPECT_NEAR(json["noise"]["sigma_degc"], 0.01 * report.sigma_counts, 1e-6);
-  EXPECT_NEAR(json["range"]["mean_degc"], 0.01 * report.range_counts, 1e-6);
-  EXPECT_NEAR(json["noise"]["pixel_sigma_counts"], report.pixel_sigma_counts, 1e-6);
+  EXPECT_NEAR(json["noise"]["sigma_counts"], report.sigma_counts,
+              kDigits * std::abs(report.sigma_counts));
+  EXPECT_NEAR(json["noise"]["sigma_degc"], 0.01 * report.sigma_counts,
+              kDigits * std::abs(0.01 * report.sigma_counts));
+  EXPECT_NEAR(json["range"]["mean_degc"], 0.01 * report.range_counts,
+              kDigits * std::abs(0.01 * report.range_counts));
+  EXPECT_NEAR(json["noise"]["pixel_sigma_counts"], report.pixel_sigma_counts,
+              kDigits * std::abs(report.pixel_sigma_counts));
   EXPECT_EQ(json["noise"]["kind"], "white");
   ASSERT_EQ(json["noise"]["spectrum"].size(), 8U);
-  EXPECT_NEAR(json["noise"]["spectrum"][2][3], report.spectrum[8 * 2 + 3], 1e-6);
+  EXPECT_NEAR(json["noise"]["spectrum"][2][3], report.spectrum[8 * 2 + 3],
+              kDigits * std::abs(report.spectrum[8 * 2 + 3]));
   EXPECT_TRUE(json["noise"]["fixed_pattern_share"].is_null());
   EXPECT_EQ(json["series"]["median_counts"].size(), 3U);
   EXPECT_EQ(json["column_profile_counts"].size(), 96U);

@@ -118,9 +118,10 @@ TEST_F(Program, GoesOnAfterABadFileAndExitsWith1) {
   std::ofstream(directory_ / "bad.png") << "\x89PNG\r\n\x1a\nrubbish";
   const auto result = run("scale bad.png good.png missing.png good.png -o out");
   EXPECT_EQ(result.exit_code, 1);
-  EXPECT_EQ(count_lines(result.err), 2U) << result.err;
+  EXPECT_EQ(count_lines(without_summary(result.err)), 2U) << result.err;
   EXPECT_NE(result.err.find("bad.png"), std::string::npos);
   EXPECT_NE(result.err.find("missing.png"), std::string::npos);
+  EXPECT_NE(result.err.find("thermedge: 4 frames, 2 failures, "), std::string::npos) << result.err;
   EXPECT_TRUE(fs::exists(directory_ / "out/good.png"));
   EXPECT_TRUE(fs::exists(directory_ / "out/good_2.png")) << "the same stem twice";
 }
@@ -202,7 +203,7 @@ TEST_F(Program, TheStableViewSaysWhatItDid) {
       run("scale 'sim:desk?width=96&height=72&frames=3' bad.png "
           "'sim:desk?width=96&height=72' --stable -o out");
   EXPECT_EQ(result.exit_code, 1);
-  EXPECT_EQ(count_lines(result.err), 1U) << result.err;
+  EXPECT_EQ(count_lines(without_summary(result.err)), 1U) << result.err;
   const std::string lines = file_text(directory_ / "out" / "scale.jsonl");
   ASSERT_EQ(count_lines(lines), 4U) << lines;
   std::istringstream text(lines);
@@ -210,7 +211,7 @@ TEST_F(Program, TheStableViewSaysWhatItDid) {
   double offset = 0;
   for (std::string line; std::getline(text, line); ++index) {
     const auto entry = nlohmann::json::parse(line);
-    EXPECT_EQ(entry["index"], index);
+    EXPECT_EQ(entry["frame"], index < 3 ? index : index + 1) << "the bad picture has a number, too";
     EXPECT_EQ(entry["gain"], 0.2);
     EXPECT_TRUE(index == 0 ? entry["event"] == "start" : entry["event"].is_null());
     EXPECT_LT(entry["clipped_low_share"], 0.02);
@@ -238,7 +239,7 @@ TEST_F(Program, BenchTimesEveryStage) {
   }
   const double total = json["total"]["median_ms"];
   EXPECT_GT(total, 0.5 * sum);
-  EXPECT_NEAR(json["fps"], 1000 / total, 1e-6);
+  EXPECT_NEAR(json["fps"], 1000 / total, 0.01 * 1000 / total);
 
   const auto table = run(std::string("bench ") + kScene + kQuick + "--seconds 0");
   EXPECT_EQ(table.exit_code, 0);

@@ -31,8 +31,9 @@ struct SourceFrame {
   int bits = 16;       // 8 or 16: of a count
   std::string source;  // the file as the user named it; "x.tif[7]" where it holds several frames
   std::string stem;    // name for results: "x"; "x_0007" where the file holds several
-  std::int64_t index = 0;     // the page within the file: 0, 1, 2 ...
-  std::int64_t stamp_ns = 0;  // when it was taken, since 1970 UTC, where the file says so; else 0
+  std::int64_t index = 0;  // the page within the file: 0, 1, 2 ...
+  // When it was taken, where the source says so: since 1970 UTC; simulated frames since the first.
+  std::optional<std::int64_t> stamp_ns;
   // As Frame::valid: 0 where the file has no number (NaN) or an infinite one; empty where all
   // pixels are measurements.
   Image<std::uint8_t> valid;

@@ -75,13 +75,13 @@ std::optional<CountsModel> counts_model(const NumberReader& record) {
   return model ? std::optional(*model) : std::nullopt;
 }
 
-std::int64_t stamp_ns(const NumberReader& record) {
+std::optional<std::int64_t> stamp_ns(const NumberReader& record) {
   constexpr std::int64_t kNsPerSecond = 1000000000;
   constexpr std::int64_t kNsPerMs = 1000000;
   const auto seconds = record.u32(kTimeAt);
   const auto fraction = record.u32(kTimeAt + 4);
-  if (!seconds || !fraction) {
-    return 0;
+  if (!seconds || !fraction || *seconds == 0) {
+    return std::nullopt;
   }
   const std::int64_t ms = *fraction & 0xFFFFU;
   return *seconds * kNsPerSecond + (ms < 1000 ? ms * kNsPerMs : 0);

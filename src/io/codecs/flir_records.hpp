@@ -38,7 +38,7 @@ struct FlirBlock {
 
 struct FlirCamera {
   std::optional<CountsModel> counts_model;  // for the emissivity and reflected temperature stored
-  std::int64_t stamp_ns = 0;                // since 1970 UTC; 0: not known
+  std::optional<std::int64_t> stamp_ns;     // since 1970 UTC
 };
 // What is missing or makes no sense stays unknown.
 [[nodiscard]] FlirCamera read_flir_camera(Bytes record);

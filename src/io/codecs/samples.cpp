@@ -73,7 +73,7 @@ SampleStore::SampleStore(SampleFormat format, ByteOrder order, int width, int he
   frame.counts.resize(width, height);
   frame.valid.resize(0, 0);
   frame.counts_model.reset();
-  frame.stamp_ns = 0;
+  frame.stamp_ns.reset();
   format.are_counts() ? frame.values.resize(0, 0) : frame.values.resize(width, height);
 }
 

@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <vector>
 
+#include "results/digits.hpp"
 #include "thermedge/io/edges_file.hpp"
 
 namespace thermedge::io {
@@ -9,48 +11,91 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Short decimals: 1/1000 is far below what any value here is known to.
-Json rounded(double value) {
-  return std::isfinite(value) ? Json(std::round(value * 1000) / 1000) : Json(nullptr);
+constexpr int kMeasuredDigits = 4;  // of noise, thresholds and evidence
+constexpr int kSpectrumDecimals = 3;
+constexpr int kMsDecimals = 3;
+
+Json or_null(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+Json decimals(double value, int digits) { return or_null(to_decimals(value, digits)); }
+
+Json digits(double value, int count) { return or_null(to_significant(value, count)); }
+
+// Of measured figures that are known to a few per cent.
+Json measure(double value) { return digits(value, kMeasuredDigits); }
+
+Json pairs(const std::vector<float>& x, const std::vector<float>& y, Range range, int digits) {
+  Json list = Json::array();
+  for (std::uint32_t i = range.first; i < range.first + range.count; ++i) {
+    list.push_back({decimals(x[i], digits), decimals(y[i], digits)});
+  }
+  return list;
 }
 
-// Scores span many decades, so digits after the point would not do.
-Json exact(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
-Json to_json(const EdgeSet& set, const Edge& edge) {
-  Json points = Json::array();
-  for (std::uint32_t i = edge.edgels.first; i < edge.edgels.first + edge.edgels.count; ++i) {
-    points.push_back({rounded(set.edgels.x[i]), rounded(set.edgels.y[i])});
+Json numbers(const std::vector<float>& values, Range range, int count) {
+  Json list = Json::array();
+  for (std::uint32_t i = range.first; i < range.first + range.count; ++i) {
+    list.push_back(digits(values[i], count));
   }
-  return {{"index", edge.index},
-          {"rank", edge.rank},
-          {"score", exact(edge.score)},
-          {"es", exact(edge.es)},
-          {"z", rounded(edge.z)},
-          {"log10_nfa", rounded(edge.log10_nfa)},
-          {"closed", edge.closed},
-          {"begins_at_invalid", edge.begins_at_invalid},
-          {"ends_at_invalid", edge.ends_at_invalid},
-          {"length_px", rounded(edge.length_px)},
-          {"contrast_counts", rounded(edge.contrast_counts)},
-          {"contrast_sigmas", rounded(edge.contrast_sigmas)},
-          {"corners", set.corners_of(edge)},
-          {"connected", set.connections_of(edge)},
-          {"points", std::move(points)}};
+  return list;
+}
+
+// What was measured at the points; null where there was no frame to measure on.
+void add_measures_of_points(const Edgels& edgels, const Edge& edge, const EdgesFileOptions& options,
+                            Json& json) {
+  const bool is_measured = std::isfinite(edge.contrast_counts);
+  const auto add = [&](bool wanted, const char* key, auto&& make) {
+    if (wanted) {
+      json[key] = is_measured ? make() : Json(nullptr);
+    }
+  };
+  add(options.normals, "normals",
+      [&] { return pairs(edgels.nx, edgels.ny, edge.edgels, kNormalDecimals); });
+  add(options.strengths, "strength_counts_per_px",
+      [&] { return numbers(edgels.magnitude_counts, edge.edgels, kStrengthDigits); });
+  add(options.position_sigmas, "position_sigma_px",
+      [&] { return numbers(edgels.position_sigma_px, edge.edgels, kPositionSigmaDigits); });
+}
+
+Json to_json(const EdgeSet& set, const Edge& edge, const EdgesFileOptions& options) {
+  constexpr int kLengthDigits = 5;
+  Json json = {{"index", edge.index},
+               {"rank", edge.rank},
+               {"score", digits(edge.score, kScoreDigits)},
+               {"es", digits(edge.es, kScoreDigits)},
+               {"z", measure(edge.z)},
+               {"log10_nfa", measure(edge.log10_nfa)},
+               {"closed", edge.closed},
+               {"begins_at_invalid", edge.begins_at_invalid},
+               {"ends_at_invalid", edge.ends_at_invalid},
+               {"length_px", digits(edge.length_px, kLengthDigits)},
+               {"contrast_counts", digits(edge.contrast_counts, kContrastDigits)},
+               {"contrast_sigmas", digits(edge.contrast_sigmas, kContrastDigits)},
+               {"corners", set.corners_of(edge)},
+               {"connected", set.connections_of(edge)},
+               {"points", pairs(set.edgels.x, set.edgels.y, edge.edgels, kPositionDecimals)}};
+  add_measures_of_points(set.edgels, edge, options, json);
+  return json;
+}
+
+Json dropped_edges(const EdgeSet& set, const EdgesFileOptions& options) {
+  Json list = Json::array();
+  for (std::size_t i = set.kept; i < set.edges.size(); ++i) {
+    Json json = to_json(set, set.edges[i], options);
+    json["reason"] = status_name(set.edges[i].status);
+    list.push_back(std::move(json));
+  }
+  return list;
 }
 
 Json to_json(const StageTimes& times) {
   Json json = Json::object();
   for (const StageTime& time : times) {
-    json[std::string(time.stage)] = rounded(time.ms);
+    json[std::string(time.stage)] = decimals(time.ms, kMsDecimals);
   }
-  json["total"] = rounded(total_ms(times));
+  json["total"] = decimals(total_ms(times), kMsDecimals);
   return json;
 }
-
-struct StatusCounts {
-  std::size_t weak = 0, insignificant = 0, low_contrast = 0, beyond_budget = 0;
-};
 
 // Of the nodes of the map: the least and the greatest; 1 and 1 where the noise is even.
 Json range_of(const NoiseLevelMap& map) {
@@ -62,7 +107,7 @@ Json range_of(const NoiseLevelMap& map) {
     least = y == 0 ? *low : std::min(least, *low);
     greatest = y == 0 ? *high : std::max(greatest, *high);
   }
-  return {rounded(least), rounded(greatest)};
+  return {measure(least), measure(greatest)};
 }
 
 Json to_json(const NoiseSpectrum& spectrum) {
@@ -70,7 +115,7 @@ Json to_json(const NoiseSpectrum& spectrum) {
   for (std::size_t v = 0; v < kNoiseBlockPx; ++v) {
     Json row = Json::array();
     for (std::size_t u = 0; u < kNoiseBlockPx; ++u) {
-      row.push_back(rounded(spectrum[v * kNoiseBlockPx + u]));
+      row.push_back(decimals(spectrum[v * kNoiseBlockPx + u], kSpectrumDecimals));
     }
     rows.push_back(std::move(row));
   }
@@ -80,28 +125,29 @@ Json to_json(const NoiseSpectrum& spectrum) {
 // Figures that were measured on the frame, and the choices that follow from them.
 Json measured(const Detection& detection) {
   const NoiseEstimate& noise = detection.corrections.noise;
-  Json json = {{"pixel_sigma_counts", rounded(noise.sigma_counts)},
-               {"column_sigma_counts", rounded(noise.column_sigma_counts)},
-               {"row_sigma_counts", rounded(noise.row_sigma_counts)}};
+  Json json = {{"pixel_sigma_counts", measure(noise.sigma_counts)},
+               {"column_sigma_counts", measure(noise.column_sigma_counts)},
+               {"row_sigma_counts", measure(noise.row_sigma_counts)}};
   if (detection.unit_counts > 0) {
     const NoiseModel& model = detection.corrections.noise_model;
-    json["level_counts"] = rounded(model.level_counts);
+    json["level_counts"] = measure(model.level_counts);
     json["level_range"] = range_of(model.map);
     json["spectrum"] = to_json(model.spectrum);
-    json["unit_counts"] = rounded(detection.unit_counts);
-    json["kernel_px"] = {rounded(detection.kernel_px.across_px),
-                         rounded(detection.kernel_px.along_px)};
+    json["unit_counts"] = measure(detection.unit_counts);
+    json["kernel_px"] = {measure(detection.kernel_px.across_px),
+                         measure(detection.kernel_px.along_px)};
   }
   return json;
 }
 
-StatusCounts count_statuses(const EdgeSet& set) {
-  StatusCounts counts;
-  for (const Edge& edge : set.edges) {
-    counts.weak += edge.status == EdgeStatus::kWeak ? 1 : 0;
-    counts.insignificant += edge.status == EdgeStatus::kInsignificant ? 1 : 0;
-    counts.low_contrast += edge.status == EdgeStatus::kLowContrast ? 1 : 0;
-    counts.beyond_budget += edge.status == EdgeStatus::kBeyondBudget ? 1 : 0;
+// How many edges were dropped for each reason.
+Json dropped_counts(const EdgeSet& set) {
+  Json counts = Json::object();
+  for (const EdgeStatus status : {EdgeStatus::kWeak, EdgeStatus::kInsignificant,
+                                  EdgeStatus::kLowContrast, EdgeStatus::kBeyondBudget}) {
+    counts[std::string(status_name(status))] =
+        std::count_if(set.edges.begin(), set.edges.end(),
+                      [&](const Edge& edge) { return edge.status == status; });
   }
   return counts;
 }
@@ -113,44 +159,44 @@ Json to_json(const InvalidPixels& invalid) {
           {"dead_columns", invalid.dead_columns}};
 }
 
-Json to_json(const StatusCounts& counts) {
-  return {{"weak", counts.weak},
-          {"insignificant", counts.insignificant},
-          {"low_contrast", counts.low_contrast},
-          {"beyond_budget", counts.beyond_budget}};
-}
-
 }  // namespace
 
-std::string edges_to_json(const Detection& detection, const std::string& source) {
+std::string edges_to_json(const Detection& detection, const std::string& source,
+                          const EdgesFileOptions& options) {
   const EdgeSet& set = detection.edges;
   Json edges = Json::array();
   for (const Edge& edge : set.kept_edges()) {
-    edges.push_back(to_json(set, edge));
+    edges.push_back(to_json(set, edge, options));
   }
   Json junctions = Json::array();
   for (const Junction& junction : set.junctions) {
     junctions.push_back({junction.at.x, junction.at.y});
   }
-  Json document = {{"source", source},
+  Json document = {{"format_version", kFormatVersion},
+                   {"source", source},
+                   {"frame", detection.index},
+                   {"stamp_ns", detection.stamp_ns ? Json(*detection.stamp_ns) : Json(nullptr)},
                    {"width", detection.width},
                    {"height", detection.height},
                    {"preset", preset_name(detection.preset)},
-                   {"sigma_counts", rounded(detection.sigma_counts)},
+                   {"sigma_counts", measure(detection.sigma_counts)},
                    {"edges", std::move(edges)},
                    {"junctions", std::move(junctions)},
                    {"stats",
                     {{"ms", to_json(detection.times)},
                      {"measured", measured(detection)},
                      {"edges_found", set.edges.size()},
-                     {"edges_dropped", to_json(count_statuses(set))},
+                     {"edges_dropped", dropped_counts(set)},
                      {"invalid_pixels", to_json(detection.corrections.invalid)},
                      {"bad_pixels", detection.corrections.bad_pixels.size()},
-                     {"threshold_low", rounded(detection.threshold_low)},
-                     {"threshold_high", rounded(detection.threshold_high)}}}};
+                     {"threshold_low", measure(detection.threshold_low)},
+                     {"threshold_high", measure(detection.threshold_high)}}}};
   if (detection.preset == Preset::kPaper) {
-    document["stats"]["clipped_low_share"] = rounded(detection.clipped.low);
-    document["stats"]["clipped_high_share"] = rounded(detection.clipped.high);
+    document["stats"]["clipped_low_share"] = measure(detection.clipped.low);
+    document["stats"]["clipped_high_share"] = measure(detection.clipped.high);
+  }
+  if (options.dropped_edges) {
+    document["dropped_edges"] = dropped_edges(set, options);
   }
   // A name that is not UTF-8 is shown with replacement characters rather than refused.
   return document.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";

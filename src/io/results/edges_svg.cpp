@@ -7,6 +7,7 @@
 #include <string_view>
 #include <utility>
 
+#include "results/digits.hpp"
 #include "thermedge/io/edges_file.hpp"
 #include "thermedge/io/overlay.hpp"
 
@@ -103,15 +104,18 @@ void append_edge(SvgText& svg, const EdgeSet& set, const Edge& edge, Rgb colour)
   svg << "<path id=\"edge" << edge.index << "\" stroke=\"" << colour << "\" d=\"";
   for (std::uint32_t i = 0; i < edge.edgels.count; ++i) {
     const std::uint32_t at = edge.edgels.first + i;
-    svg << (i == 0 ? "M" : "L") << e.x[at] << " " << e.y[at];
+    svg << (i == 0 ? "M" : "L") << to_decimals(e.x[at], kPositionDecimals) << " "
+        << to_decimals(e.y[at], kPositionDecimals);
   }
   svg << (edge.closed ? "Z" : "") << "\"><title>edge " << edge.index << ", rank " << edge.rank
-      << ", score " << edge.score << ", " << edge.length_px << " px";
+      << ", score " << to_significant(edge.score, kScoreDigits) << ", "
+      << to_decimals(edge.length_px, 1) << " px";
   append_evidence(svg, edge);
   svg << "</title></path>\n";
   for (const std::uint32_t corner : set.corners_of(edge)) {
     const std::uint32_t at = edge.edgels.first + corner;
-    svg << "<rect x=\"" << e.x[at] - 0.5 << "\" y=\"" << e.y[at] - 0.5
+    svg << "<rect x=\"" << to_decimals(e.x[at] - 0.5, kPositionDecimals) << "\" y=\""
+        << to_decimals(e.y[at] - 0.5, kPositionDecimals)
         << "\" width=\"1\" height=\"1\" stroke=\"white\"/>\n";
   }
 }

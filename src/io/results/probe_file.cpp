@@ -1,17 +1,20 @@
 #include "thermedge/io/probe_file.hpp"
-#include "thermedge/options.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+
+#include "results/digits.hpp"
+#include "thermedge/io/edges_file.hpp"
+#include "thermedge/options.hpp"
 
 namespace thermedge::io {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-// To six digits after the point, so that the text does not change with the last bits.
-Json rounded(double value) { return std::round(value * 1e6) / 1e6; }
+// Six digits say more than is known of any value here.
+Json rounded(double value) { return to_significant(value, 6); }
 
 Json rounded(const std::optional<double>& value) { return value ? rounded(*value) : Json(nullptr); }
 
@@ -117,7 +120,8 @@ Json suggested_json(const RecordingReport& report) {
 }  // namespace
 
 std::string probe_to_json(const RecordingReport& report, const std::vector<std::string>& inputs) {
-  const Json document = {{"inputs", inputs},
+  const Json document = {{"format_version", kFormatVersion},
+                         {"inputs", inputs},
                          {"frames", report.frames},
                          {"width", report.width},
                          {"height", report.height},

@@ -1,0 +1,83 @@
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <iterator>
+#include <string>
+#include <string_view>
+
+#include "results/digits.hpp"
+#include "thermedge/io/edges_file.hpp"
+
+namespace thermedge::io {
+namespace {
+
+constexpr std::string_view kHeader =
+    "frame,stamp_ns,edge,status,score,contrast_counts,point,x_px,y_px,normal_x,normal_y,"
+    "strength_counts_per_px,position_sigma_px,is_corner\n";
+
+// A row of cells; numbers do not depend on the locale.
+class CsvText {
+ public:
+  CsvText& operator<<(std::string_view cell) {
+    text_ += cell;
+    text_ += ',';
+    return *this;
+  }
+  CsvText& operator<<(std::int64_t cell) { return append(cell); }
+  // Empty where it is not finite.
+  CsvText& operator<<(double cell) { return std::isfinite(cell) ? append(cell) : *this << ""; }
+  void end_row() { text_.back() = '\n'; }
+  [[nodiscard]] const std::string& text() const { return text_; }
+
+ private:
+  template <class T>
+  CsvText& append(T cell) {
+    char digits[32];
+    const auto written = std::to_chars(std::begin(digits), std::end(digits), cell);
+    return *this << std::string_view(std::begin(digits), written.ptr);
+  }
+
+  std::string text_;
+};
+
+void append_edge(CsvText& csv, const std::string& frame, const EdgeSet& set, const Edge& edge) {
+  const Edgels& e = set.edgels;
+  const bool is_measured = std::isfinite(edge.contrast_counts);  // an edge map has no frame
+  const auto corners = set.corners_of(edge);
+  const auto measured = [&](double value) { return is_measured ? value : NAN; };
+  for (std::uint32_t i = 0; i < edge.edgels.count; ++i) {
+    const std::uint32_t at = edge.edgels.first + i;
+    const bool is_corner = std::find(corners.begin(), corners.end(), i) != corners.end();
+    csv << std::string_view(frame) << std::int64_t{edge.index} << status_name(edge.status)
+        << to_significant(edge.score, kScoreDigits)
+        << to_significant(edge.contrast_counts, kContrastDigits) << std::int64_t{i}
+        << to_decimals(e.x[at], kPositionDecimals) << to_decimals(e.y[at], kPositionDecimals)
+        << to_decimals(measured(e.nx[at]), kNormalDecimals)
+        << to_decimals(measured(e.ny[at]), kNormalDecimals)
+        << to_significant(measured(e.magnitude_counts[at]), kStrengthDigits)
+        << to_significant(measured(e.position_sigma_px[at]), kPositionSigmaDigits)
+        << std::int64_t{is_corner ? 1 : 0};
+    csv.end_row();
+  }
+}
+
+}  // namespace
+
+std::string_view edges_csv_header() { return kHeader; }
+
+std::string edges_to_csv_rows(const Detection& detection, const EdgesFileOptions& options) {
+  const EdgeSet& set = detection.edges;
+  const std::string frame =
+      std::to_string(detection.index) + "," +
+      (detection.stamp_ns ? std::to_string(*detection.stamp_ns) : std::string());
+  CsvText csv;
+  const std::size_t count = options.dropped_edges ? set.edges.size() : set.kept;
+  for (std::size_t i = 0; i < count; ++i) {
+    append_edge(csv, frame, set, set.edges[i]);
+  }
+  return csv.text();
+}
+
+}  // namespace thermedge::io
