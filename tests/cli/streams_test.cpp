@@ -1,6 +1,7 @@
 // Streams: each line leaves the program with its frame, whatever ends the run leaves whole lines, a
 // full standard output is an error, and the last line of a long run sums it up.
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <chrono>
 #include <nlohmann/json.hpp>
@@ -144,6 +145,26 @@ TEST_F(Streams, ASignalLeavesWholeFrames) {
     }
   }
   EXPECT_EQ(count_lines(text_of("made/trajectory.txt")), count_lines(text_of("made/truth.jsonl")));
+}
+
+// The JSON of the first frame goes into a pipe that nobody reads yet, so the frame is in work, its
+// mask already written, when the signal comes.
+TEST_F(Streams, ASignalWaitsForTheFrameInWork) {
+  fs::create_directories(directory_ / "out/json");
+  ASSERT_EQ(::mkfifo(path("out/json/desk_0000.json").c_str(), 0600), 0);
+  RunningProgram program(
+      {"detect", "sim:desk?width=96&height=72&frames=3", "-o", "out", "--write", "mask,json"},
+      directory_);
+  for (int i = 0; i < 1000 && !fs::exists(path("out/mask/desk_0000.png")); ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  ASSERT_TRUE(fs::exists(path("out/mask/desk_0000.png"))) << program.errors();
+  program.send(SIGTERM);
+  std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  ASSERT_TRUE(program.is_running());
+  EXPECT_TRUE(nlohmann::json::accept(text_of("out/json/desk_0000.json")));
+  EXPECT_EQ(program.exit_code(), 128 + SIGTERM);
+  EXPECT_FALSE(fs::exists(path("out/mask/desk_0001.png"))) << "no frame is begun after a signal";
 }
 
 TEST_F(Streams, AFullStandardOutputIsOneErrorEverywhere) {

@@ -85,6 +85,11 @@ class RunningProgram {
     return text;
   }
   void send(int signal_number) const { EXPECT_EQ(::kill(process_, signal_number), 0); }
+  [[nodiscard]] bool is_running() {
+    siginfo_t ended{};
+    return ::waitid(P_PID, static_cast<id_t>(process_), &ended, WEXITED | WNOHANG | WNOWAIT) == 0 &&
+           ended.si_pid == 0;
+  }
   // Waits for the end. The exit code; -1 where a signal killed it.
   [[nodiscard]] int exit_code() {
     int status = 0;
