@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 
 #include <chrono>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <regex>
 #include <sstream>
@@ -214,6 +215,21 @@ TEST_F(Streams, QuietSaysNothing) {
   }
   EXPECT_EQ(count_lines(output_of("detect -o - --quiet " + std::string(kThreeFrames))), 3U)
       << "what was asked for is no message";
+}
+
+TEST_F(Streams, TheBarHasRateAndTimeLeft) {
+  if (std::system("command -v script >/dev/null") != 0) {
+    GTEST_SKIP() << "there is no script(1), which gives the program a terminal";
+  }
+  const std::string command = "cd '" + directory_.string() + "' && script -qec \"'" +
+                              std::string(THERMEDGE_PROGRAM) +
+                              "' simulate desk -o out --frames 45 --threads 1 --write counts\" "
+                              "/dev/null >bar.txt </dev/null";
+  ASSERT_EQ(std::system(command.c_str()), 0);
+  const std::string bar = text_of("bar.txt");
+  EXPECT_TRUE(
+      std::regex_search(bar, std::regex("\\[#+ +\\] [0-9]+/45, [0-9.]+ frames/s, [0-9.]+ s left")))
+      << bar;
 }
 
 // Frames, failures, edges, frames a second, and where the results are.
