@@ -11,6 +11,7 @@ namespace thermedge::cli {
 
 struct EdgeCommand : DetectorCommand {
   std::string write;  // kinds of results
+  bool explain = false;
 
   void add_to(CLI::App& app);
 
@@ -18,6 +19,9 @@ struct EdgeCommand : DetectorCommand {
   // code.
   using Step = std::function<Status(Detector&, const io::SourceFrame&, Detection&)>;
   [[nodiscard]] int run_on_frames(const Step& step) const;
+
+ private:
+  [[nodiscard]] Status check_explain() const;
 };
 
 }  // namespace thermedge::cli

@@ -28,6 +28,9 @@ class ResultWriter {
                                                    const InputFiles& inputs);
   [[nodiscard]] Room room() const { return mode_ == Mode::kOneFile ? Room::kOne : Room::kMany; }
 
+  // Whether overlays show dropped edges and why they were dropped.
+  void explain_overlays(bool explain) { explain_ = explain; }
+
   // `counts`: what an overlay lies on; empty where there is no frame.
   [[nodiscard]] Status write(const Detection& detection, ImageView<const std::uint16_t> counts,
                              const std::string& source, const std::string& stem);
@@ -43,6 +46,7 @@ class ResultWriter {
   Mode mode_;
   std::string output_;
   std::vector<std::string> kinds_;
+  bool explain_ = false;
   OutputDirectory directory_;
   Image<std::uint8_t> grey8_;
   Image<std::uint16_t> grey16_;
