@@ -145,10 +145,11 @@ class ClippedFrames {
     if (clipped_ == 0) {
       return;
     }
-    console.warn(fmt::format(
-        "frames with more than {:g} % of their pixels clipped: {} of {}; the most, {:.1f} %, in {}{}",
-        100 * kMuchClippedShare, clipped_, frames_, 100 * most_, source_,
-        gain_is_given ? "; a smaller --gain, or none, clips less" : ""));
+    console.warn(
+        fmt::format("frames with more than {:g} % of their pixels clipped: {} of {}; the most, "
+                    "{:.1f} %, in {}{}",
+                    100 * kMuchClippedShare, clipped_, frames_, 100 * most_, source_,
+                    gain_is_given ? "; a smaller --gain, or none, clips less" : ""));
   }
 
  private:

@@ -29,9 +29,9 @@ constexpr double kLargestText = 15;
 void draw_legend(Canvas& canvas, const EdgeSet& set, double top, double size) {
   double y = top + 1.5 * size;
   for (const Meaning& meaning : kMeanings) {
-    const auto edges =
-        std::count_if(set.edges.begin(), set.edges.end(),
-                      [&](const Edge& edge) { return edge.status == meaning.status; });
+    const auto edges = std::count_if(set.edges.begin(), set.edges.end(), [&](const Edge& edge) {
+      return edge.status == meaning.status;
+    });
     const Box swatch = {size, y - 0.5 * size, 2 * size, 0.35 * size};
     canvas.fill(swatch.inset(-0.25 * size), kInk);  // as on the darkened frame
     canvas.fill(swatch, io::status_colour(meaning.status));
@@ -42,8 +42,7 @@ void draw_legend(Canvas& canvas, const EdgeSet& set, double top, double size) {
 
 }  // namespace
 
-Figure draw_explained_overlay(const Detection& detection,
-                              ImageView<const std::uint16_t> counts) {
+Figure draw_explained_overlay(const Detection& detection, ImageView<const std::uint16_t> counts) {
   Image<Rgb> overlay;
   io::draw_overlay(detection, counts, overlay, io::OverlayContent::kExplained);
   const double width = overlay.width();

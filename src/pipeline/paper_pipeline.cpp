@@ -119,6 +119,7 @@ void PaperPipeline::keep_intermediates(Intermediates* out) const {
   copy_image(counts_, out->corrected);
   copy_image(levels_.view(), out->levels);
   round_to_levels(denoised_, out->denoised);
+  copy_image(ImageView<const float>(denoised_), out->denoised_values);
   copy_image(edge_map_, out->edge_map);
   out->contours = contours_;
   out->linked = linked_;
