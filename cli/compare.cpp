@@ -24,7 +24,7 @@ struct CompareCommand : DetectorCommand {
   double panel_width = figures::kPanelWidth;
   std::string classical_denoiser = kSame;
   std::optional<std::string> maps;  // --write; empty: all
-  ClassicalOptions classical;
+  ClassicalOptions classical{.log_kernel_px = 9};
   std::string canny_high = "0";
   std::string canny_low = "0";
 
@@ -59,6 +59,7 @@ Result<figures::ComparisonOptions> CompareCommand::comparison(
   options.classical = classical;
   if (const PaperOptions* paper = detector.paper()) {
     options.classical.canny = paper->canny;
+    options.classical.canny.blur = false;  // it has a Gaussian of its own
   }
   options.panel_width = panel_width;
   for (const auto& known : kDenoiseMethods) {
@@ -166,7 +167,7 @@ void add_compare(CLI::App& program, int& exit_code) {
                  "gradient above which Canny continues an edge, likewise (0: 0.4 of the high one)")
       ->capture_default_str();
   app.add_option("--log-kernel", command->classical.log_kernel_px,
-                 "side of LoG's kernel, px (0: 13; paper: 9)")
+                 "side of LoG's kernel, px (paper: 9; 0: 13, as MATLAB has it)")
       ->check(CLI::Range(0, 61))
       ->capture_default_str();
   app.add_option("--write", command->maps,

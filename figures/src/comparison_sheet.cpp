@@ -131,6 +131,7 @@ struct ComparisonSheet::Impl {
   [[nodiscard]] Figure sheet(ImageView<const std::uint16_t> frame,
                              std::span<const ComparedMap> maps, const std::string& source) const;
   [[nodiscard]] std::string what_ran() const;
+  [[nodiscard]] std::string log_text() const;
   [[nodiscard]] std::string canny_text() const;
 
   ComparisonOptions options;
@@ -287,7 +288,7 @@ Figure ComparisonSheet::Impl::sheet(ImageView<const std::uint16_t> frame,
       .footer =
           "After figures 14 and 15 of Vu Hoang Minh et al. 2017. The classical detectors are "
           "those of MATLAB's edge with its automatic thresholds" +
-          canny_text() + "."};
+          log_text() + canny_text() + "."};
   return make_sheet(text, panels, kColumns, panel_width_for(detection.width, options.panel_width));
 }
 
@@ -303,6 +304,11 @@ std::string ComparisonSheet::Impl::what_ran() const {
                      *options.classical_denoiser == DenoiseMethod::kNone
                          ? std::string(", not denoised")
                          : fmt::format(" after {}", display_name(*options.classical_denoiser)));
+}
+
+std::string ComparisonSheet::Impl::log_text() const {
+  const int side = options.classical.log_kernel_px;
+  return side == 0 ? "" : fmt::format("; LoG: kernel of {0}x{0} px", side);
 }
 
 // What of Canny is not as MATLAB has it.
