@@ -59,24 +59,24 @@ void draw_curves(Canvas& canvas, const Box& box, std::span<const double> tempera
     chart.line(points, colour);
     const Point maximum[] = {{wien_peak_um(kelvin), planck_radiance(wien_peak_um(kelvin), kelvin)}};
     chart.line(maximum, colour);
+    chart.label(maximum[0], fmt::format("{:g} K", kelvin), colour);
   }
 }
 
-Panel panel_of(std::string title, std::string note, std::span<const double> temperatures_k,
+Panel panel_of(std::string title, const std::string& note, std::span<const double> temperatures_k,
                const Band* band) {
-  Panel panel = {.title = std::move(title),
-                 .note = std::move(note),
-                 .aspect = kAspect,
-                 .bordered = false,
-                 .draw = [=](Canvas& canvas, const Box& box) {
-                   draw_curves(canvas, box, temperatures_k, band);
-                 }};
-  for (std::size_t i = 0; i < temperatures_k.size(); ++i) {
-    panel.legend.push_back(
-        {Mark::kDisc, curve_colour(i, temperatures_k.size()),
-         fmt::format("{:g} K: {:.3g} um", temperatures_k[i], wien_peak_um(temperatures_k[i]))});
+  std::string maxima;
+  for (const double kelvin : temperatures_k) {
+    maxima += fmt::format("{}{:.3g} um at {:g} K", maxima.empty() ? "" : ", ", wien_peak_um(kelvin),
+                          kelvin);
   }
-  return panel;
+  return {.title = std::move(title),
+          .note = "Maxima: " + maxima + ". " + note,
+          .aspect = kAspect,
+          .bordered = false,
+          .draw = [=](Canvas& canvas, const Box& box) {
+            draw_curves(canvas, box, temperatures_k, band);
+          }};
 }
 
 Status check(std::span<const double> temperatures_k, const Band& band) {

@@ -6,13 +6,28 @@
 #include <vector>
 
 #include "frame_panels.hpp"
+#include "thermedge/parallel_runner.hpp"
 #include "thermedge/stages/noise.hpp"
+#include "thermedge/stages/preprocessor.hpp"
 
 namespace thermedge::figures {
 namespace {
 
 double aspect_of(const SnrFrame& frame) {
   return static_cast<double>(frame.counts.height()) / frame.counts.width();
+}
+
+// A dead pixel would make the range.
+Image<std::uint16_t> without_bad_pixels(ImageView<const std::uint16_t> counts) {
+  ValidityOptions validity;
+  validity.find = false;
+  Preprocessor preprocessor({}, {}, validity, false);
+  Corrections corrections;
+  const auto runner = make_runner(1);
+  const auto corrected = preprocessor.run(Frame(counts), *runner, corrections);
+  Image<std::uint16_t> copy(corrected.width(), corrected.height());
+  copy_pixels(corrected, copy.view());
+  return copy;
 }
 
 // The text's eqs. 3 and 4: (3342 - 2217) / 100 = 11.25 degC.
@@ -56,19 +71,25 @@ Result<Figure> draw_snr(std::span<const SnrFrame> frames, const GreyScaleOptions
   if (!(degc_per_count > 0) || !std::isfinite(degc_per_count)) {
     return failure(ErrorCode::kInvalidArgument, "degc_per_count should be above 0");
   }
-  std::vector<Image<std::uint8_t>> levels;
+  std::vector<Image<std::uint16_t>> corrected;
+  std::vector<SnrFrame> shown;
   for (const SnrFrame& frame : frames) {
+    corrected.push_back(without_bad_pixels(frame.counts));
+    shown.push_back({corrected.back().view(), frame.source});
+  }
+  std::vector<Image<std::uint8_t>> levels;
+  for (const SnrFrame& frame : shown) {
     levels.emplace_back(frame.counts.width(), frame.counts.height());
     if (Status status = scale_to_8bit(frame.counts, grey_scale, levels.back()); !status) {
       return tl::unexpected(status.error());
     }
   }
   std::vector<Panel> panels;
-  for (const SnrFrame& frame : frames) {
+  for (const SnrFrame& frame : shown) {
     panels.push_back(raw_panel(frame, degc_per_count));
   }
   for (std::size_t i = 0; i < frames.size(); ++i) {
-    panels.push_back(grey_panel(frames[i], levels[i], grey_scale, degc_per_count));
+    panels.push_back(grey_panel(shown[i], levels[i], grey_scale, degc_per_count));
   }
   const SheetText text = {
       .title = "High and low signal-to-noise ratio",

@@ -151,7 +151,7 @@ TEST_F(Messages, OptionsOfEachCommandAreChecked) {
        {"scale frame.pgm -o x.png --gain -1", 2, "--gain"},
        {"scale frame.pgm -o x.png --dead-band 3", 2, "--stable"},
        {"scale frame.pgm -o x.png --stable --slew 256", 2, "--slew"},
-       {"scale frame.pgm -o missing/x.png", 1, "missing/x.png"},
+       {"scale frame.raw --raw-size 8x6 -o missing/x.png", 1, "missing/x.png"},
        {"denoise frame.pgm", 2, "-o is required"},
        {"denoise -o x.png", 2, "INPUT is required"},
        {"denoise frame.pgm -o x.png --method strong", 2, "--method"},

@@ -19,9 +19,9 @@ struct SnrFrame {
 
 inline constexpr std::size_t kMostSnrFrames = 6;
 
-// Of each frame a column: its counts, with their range in degC (eqs. 3 and 4), the noise and the
-// ratio of both, and its 8-bit view by Algorithm 1. Errors: no frame or more than kMostSnrFrames,
-// an option out of range.
+// Of each frame, whose bad pixels are replaced first, a column: its counts, with their range in
+// degC (eqs. 3 and 4), the noise and the ratio of both, and its 8-bit view by Algorithm 1. Errors:
+// no frame or more than kMostSnrFrames, an option out of range.
 [[nodiscard]] Result<Figure> draw_snr(std::span<const SnrFrame> frames,
                                       const GreyScaleOptions& grey_scale = {},
                                       double degc_per_count = kDegcPerCount,
