@@ -129,9 +129,11 @@ void add_evaluate(CLI::App& program, int& exit_code) {
                  "directory of edge maps (8-bit PNG, 255 strongest) or of results (JSON), one such "
                  "file, or JSON lines (.jsonl)")
       ->required();
-  app.add_option("GT", command->truth,
-                 "truth by base name: .npz, .mat (BSDS), .png, _*.png or .json in a directory, one "
-                 "such file, or JSON lines (.jsonl); without: structure and repeatability");
+  app.add_option(
+      "GT", command->truth,
+      "true edges: a directory in which each result's file name is looked for as .npz, .mat "
+      "(BSDS), .png, _*.png or .json; one such file; or JSON lines (.jsonl). Without: "
+      "structure and repeatability");
   app.add_option("--at", options.at, "only at this threshold")->check(CLI::Range(1, 255));
   app.add_option("--thresholds", options.thresholds, "number of thresholds for strength maps")
       ->check(CLI::Range(1, 254))

@@ -15,7 +15,7 @@ struct ContrastTuning {
   // At most kMostSteps samples to a side: the size of an array on the stack.
   static constexpr std::size_t kMostSteps = 4;
   double nearest_px = 1.5;   // beyond the flank of optics with a blur of about 1 px; contrast from
-                             // 3.5 px on only loses .007 of F at s20 (docs/tuning.md)
+                             // 3.5 px on only loses .007 of F at s20 (docs/experiments.md)
   double farthest_px = 3.5;  // of measure_contrast: edges 7 px apart do not see each other
 };
 
