@@ -142,7 +142,8 @@ int CompareCommand::draw() const {
 
 void add_compare(CLI::App& program, int& exit_code) {
   CLI::App& app = *program.add_subcommand(
-      "compare", "Prewitt, Roberts, Sobel, LoG, Canny and thermedge on one sheet");
+      "compare",
+      "draw the edges of Prewitt, Roberts, Sobel, LoG, Canny and thermedge on one sheet");
   auto command = std::make_shared<CompareCommand>();
   command->add_to(app);
   command->common.add_validity_to(app);
@@ -150,9 +151,9 @@ void add_compare(CLI::App& program, int& exit_code) {
   std::vector<std::string> denoisers = names_of(kDenoiseMethods);
   denoisers.emplace_back(kSame);
   app.add_option("--denoise", command->classical_denoiser,
-                 "what the classical detectors run on: the same denoised picture as thermedge, or "
-                 "the 8-bit view after none, gaussian, nlm or bm3d (thermedge's own denoiser: "
-                 "--set denoise.method=...)")
+                 "input of the classical detectors: same (the picture that thermedge denoised), or "
+                 "the 8-bit view behind none, gaussian, nlm or bm3d; --set denoise.method=... sets "
+                 "thermedge's own denoiser")
       ->check(CLI::IsMember(denoisers))
       ->capture_default_str();
   app.add_option("--canny-sigma", command->classical.canny_sigma_px,

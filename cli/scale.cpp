@@ -211,8 +211,8 @@ int ScaleCommand::run() {
 }  // namespace
 
 void add_scale(CLI::App& program, int& exit_code) {
-  CLI::App& app =
-      *program.add_subcommand("scale", "16 bit to 8 bit at constant degrees per grey level");
+  CLI::App& app = *program.add_subcommand(
+      "scale", "16-bit frames to 8-bit pictures at a constant number of degrees per grey level");
   auto command = std::make_shared<ScaleCommand>();
   command->common.add_to(app);
   app.get_option("-o")->required();
@@ -222,13 +222,15 @@ void add_scale(CLI::App& program, int& exit_code) {
       ->check(CLI::Range(0.0, 1000.0));
   CLI::Option* stable = app.add_flag(
       "--stable", command->stable,
-      "a view that does not flicker: its centre is held; gain, offset and events in scale.jsonl");
+      "for sequences: gain and offset are held and follow slowly, so that the picture does not "
+      "flicker; both are written to scale.jsonl");
   app.add_option("--dead-band", command->view.dead_band_levels,
-                 "levels that the median may move before the view follows")
+                 "grey levels by which the median may move before the view follows")
       ->check(CLI::Range(0.0, 127.0))
       ->capture_default_str()
       ->needs(stable);
-  app.add_option("--slew", command->view.slew_levels, "levels a frame that the view may move")
+  app.add_option("--slew", command->view.slew_levels,
+                 "grey levels by which the view may move from frame to frame")
       ->check(CLI::Range(0.0, 255.0))
       ->capture_default_str()
       ->needs(stable);

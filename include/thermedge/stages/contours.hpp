@@ -38,7 +38,7 @@ struct ContourOptions {
   int gap_px = 1;             // reach of a walking step, 1..8 px (1: neighbours; 2 jumps one pixel)
   int min_length_px = 0;      // shortest curve kept, px; 0: more than (width + height) / 25 pixels
   double closed_gap_px = 3;   // T of eq. 13, 2-3 px in the text: a curve is closed where its ends
-                             // are nearer; 5.66 is the rule of the public code of He & Yung
+                              // are nearer; 5.66 is the rule of the public code of He & Yung
 
   // Fails with one line that names the option: out of its range, or at odds with another one.
   [[nodiscard]] Status check() const;
