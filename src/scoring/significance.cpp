@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <iterator>
 #include <limits>
 #include <numbers>
@@ -73,12 +74,6 @@ double level_along(const NoiseLevelMap& map, const Edgels& edgels, Range range) 
   return std::sqrt(squares / range.count);
 }
 
-// Values for the edgels of one edge.
-struct EdgelValues {
-  std::vector<double> any;
-  std::vector<double> beyond_flank;
-};
-
 // Of an edge, counts.
 struct Step {
   double counts = 0;  // contrast less the slope
@@ -104,13 +99,13 @@ struct SignificanceTest::Impl {
   void mark_busy(const OrientedFilterResult& pixels, ImageView<const std::uint8_t> valid);
   void orient(const OrientedFilterResult& pixels, const Edge& edge, Edgels& edgels) const;
   detail::Contrast contrast_of(ImageView<const std::uint16_t> frame, const Edgels& edgels,
-                               Range range, EdgelValues& values) const;
+                               Range range, std::vector<double>& of_edgels) const;
   SideSlopes slopes(ImageView<const std::uint16_t> frame, const Edgels& edgels, Range range,
                     double side, std::vector<double>& of_edgels) const;
   double explained(ImageView<const std::uint16_t> frame, const Edgels& edgels, Range range,
                    double level, double contrast, std::vector<double>& of_edgels) const;
   void test_edge(ImageView<const std::uint16_t> frame, const NoiseModel& noise,
-                 const OrientedFilterResult& pixels, EdgelValues& values, Edgels& edgels,
+                 const OrientedFilterResult& pixels, std::vector<double>& of_edgels, Edgels& edgels,
                  Edge& edge) const;
   [[nodiscard]] double z_of_edge(const NoiseModel& noise, const Edgels& edgels, const Edge& edge,
                                  const Step& step) const;
@@ -125,7 +120,7 @@ struct SignificanceTest::Impl {
   std::vector<float> responses;
   Image<std::uint8_t> busy;
   // Each task takes every so many-th edge; their values for the edgels of one edge.
-  std::array<EdgelValues, 4> scratch;
+  std::array<std::vector<double>, 4> scratch;
   std::vector<Evidence> evidence;  // for each edge
   std::array<Vector, kEdgeDirections> along = directions();
 };
@@ -143,9 +138,8 @@ void SignificanceTest::Impl::prepare(int width, int height, const EdgeSet& edges
   strongest.resize(width, height);
   responses.reserve(strongest.size());
   busy.resize(width, height);
-  for (EdgelValues& values : scratch) {
-    values.any.reserve(edges.edgels.x.capacity());
-    values.beyond_flank.reserve(edges.edgels.x.capacity());
+  for (std::vector<double>& values : scratch) {
+    values.reserve(edges.edgels.x.capacity());
   }
   evidence.reserve(edges.edges.capacity());
 }
@@ -226,9 +220,11 @@ void SignificanceTest::Impl::orient(const OrientedFilterResult& pixels, const Ed
 // Where an edge begins or ends at another one, the contrast is that of the other one.
 detail::Contrast SignificanceTest::Impl::contrast_of(ImageView<const std::uint16_t> frame,
                                                      const Edgels& edgels, Range range,
-                                                     EdgelValues& values) const {
-  values.any.clear();
-  values.beyond_flank.clear();
+                                                     std::vector<double>& of_edgels) const {
+  of_edgels.clear();
+  // In whole steps, so that it makes no difference from which end the edge is walked.
+  constexpr double kSteps = 1 << 16;
+  std::int64_t blurred_steps = 0;
   detail::Contrast found;
   detail::for_each_run(range, [&](std::size_t first, std::size_t count) {
     detail::RunOfContrasts part;
@@ -236,13 +232,14 @@ detail::Contrast SignificanceTest::Impl::contrast_of(ImageView<const std::uint16
     for (std::size_t i = 0; i < count; ++i) {
       found.samples += part.samples[i];
       if (part.samples[i] > 0) {
-        values.any.push_back(part.mean(i));
-        values.beyond_flank.push_back(part.mean_beyond_flank(i));
+        of_edgels.push_back(part.mean(i));
+        blurred_steps += std::llround(kSteps * (part.mean_beyond_flank(i) - part.mean(i)));
       }
     }
   });
-  found.counts = trimmed_mean(values.any, tuning.contrast_trim);
-  found.beyond_flank = trimmed_mean(values.beyond_flank, tuning.contrast_trim);
+  const auto edgels_seen = static_cast<double>(std::max<std::size_t>(of_edgels.size(), 1));
+  found.counts = trimmed_mean(of_edgels, tuning.contrast_trim);
+  found.beyond_flank = found.counts + static_cast<double>(blurred_steps) / kSteps / edgels_seen;
   return found;
 }
 
@@ -305,15 +302,16 @@ double SignificanceTest::Impl::z_of_edge(const NoiseModel& noise, const Edgels& 
 
 void SignificanceTest::Impl::test_edge(ImageView<const std::uint16_t> frame,
                                        const NoiseModel& noise, const OrientedFilterResult& pixels,
-                                       EdgelValues& values, Edgels& edgels, Edge& edge) const {
+                                       std::vector<double>& of_edgels, Edgels& edgels,
+                                       Edge& edge) const {
   detail::set_normals(edgels, edge);
   orient(pixels, edge, edgels);
-  detail::Contrast contrast = contrast_of(frame, edgels, edge.edgels, values);
+  detail::Contrast contrast = contrast_of(frame, edgels, edge.edgels, of_edgels);
   detail::take_contrast(frame, noise.level_counts, edgels, edge, contrast);
   edge.contrast_sigmas = detail::in_sigmas(
       edge.contrast_counts, noise.level_counts * level_along(noise.map, edgels, edge.edgels));
   const double slope =
-      explained(frame, edgels, edge.edgels, noise.level_counts, contrast.counts, values.any);
+      explained(frame, edgels, edge.edgels, noise.level_counts, contrast.counts, of_edgels);
   contrast.counts = std::max(contrast.counts - slope, 0.0);
   if (noise.level_counts > 0) {
     edge.z = z_of_edge(noise, edgels, edge, {contrast.counts, slope});
@@ -387,8 +385,8 @@ std::size_t SignificanceTest::memory_bytes() const {
   std::size_t sum =
       detail::memory_of(impl_->spread, impl_->of_scene, impl_->strongest_in_row, impl_->strongest,
                         impl_->responses, impl_->busy, impl_->evidence);
-  for (const EdgelValues& values : impl_->scratch) {
-    sum += detail::memory_of(values.any, values.beyond_flank);
+  for (const std::vector<double>& values : impl_->scratch) {
+    sum += detail::memory_of(values);
   }
   return sum;
 }
