@@ -11,6 +11,8 @@ void add_scale(CLI::App& program, int& exit_code);
 void add_denoise(CLI::App& program, int& exit_code);
 void add_stages(CLI::App& program, int& exit_code);
 void add_compare(CLI::App& program, int& exit_code);
+void add_radiation(CLI::App& program, int& exit_code);
+void add_snr(CLI::App& program, int& exit_code);
 void add_bench(CLI::App& program, int& exit_code);
 void add_probe(CLI::App& program, int& exit_code);
 void add_simulate(CLI::App& program, int& exit_code);

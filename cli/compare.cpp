@@ -2,7 +2,10 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <charconv>
 #include <memory>
+#include <string_view>
+#include <system_error>
 
 #include "commands.hpp"
 #include "detector_command.hpp"
@@ -13,18 +16,41 @@
 namespace thermedge::cli {
 namespace {
 
+// Of --denoise: the classical detectors get the picture that thermedge denoised.
+constexpr const char* kSame = "same";
+
 struct CompareCommand : DetectorCommand {
   std::string format = "png";
   double panel_width = figures::kPanelWidth;
-  std::string classical_denoiser = "none";
+  std::string classical_denoiser = kSame;
   std::optional<std::string> maps;  // --write; empty: all
-  ClassicalOptions classical;
+  ClassicalOptions classical{.log_kernel_px = 9};
+  std::string canny_high = "0";
+  std::string canny_low = "0";
 
   [[nodiscard]] int draw() const;
   [[nodiscard]] Result<figures::ComparisonOptions> comparison(
       const DetectorOptions& detector) const;
   [[nodiscard]] Result<std::vector<std::string>> wanted_maps() const;
 };
+
+// "12" or "12counts", or "3sigma".
+Result<Quantity<figures::GradientUnit>> parse_gradient(const std::string& flag,
+                                                       const std::string& text) {
+  Quantity<figures::GradientUnit> gradient;
+  const char* const end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, gradient.value);
+  const std::string_view unit(stop, static_cast<std::size_t>(end - stop));
+  const bool in_sigma = unit == "sigma";
+  if (error != std::errc{} || !(unit.empty() || unit == "counts" || in_sigma) ||
+      !(gradient.value >= 0)) {
+    return failure(ErrorCode::kInvalidArgument,
+                   flag + " " + text +
+                       ": should be a number of counts a pixel, or of units of the noise: 3sigma");
+  }
+  gradient.unit = in_sigma ? figures::GradientUnit::kSigma : figures::GradientUnit::kCounts;
+  return gradient;
+}
 
 Result<figures::ComparisonOptions> CompareCommand::comparison(
     const DetectorOptions& detector) const {
@@ -33,6 +59,7 @@ Result<figures::ComparisonOptions> CompareCommand::comparison(
   options.classical = classical;
   if (const PaperOptions* paper = detector.paper()) {
     options.classical.canny = paper->canny;
+    options.classical.canny.blur = false;  // it has a Gaussian of its own
   }
   options.panel_width = panel_width;
   for (const auto& known : kDenoiseMethods) {
@@ -40,6 +67,12 @@ Result<figures::ComparisonOptions> CompareCommand::comparison(
       options.classical_denoiser = known.value;
     }
   }
+  const auto high = parse_gradient("--canny-high", canny_high);
+  const auto low = parse_gradient("--canny-low", canny_low);
+  if (!high || !low) {
+    return tl::unexpected(high ? low.error() : high.error());
+  }
+  options.canny_thresholds = {*high, *low};
   return options;
 }
 
@@ -110,18 +143,33 @@ int CompareCommand::draw() const {
 
 void add_compare(CLI::App& program, int& exit_code) {
   CLI::App& app = *program.add_subcommand(
-      "compare", "Prewitt, Roberts, Sobel, LoG, Canny and thermedge on one sheet");
+      "compare",
+      "draw the edges of Prewitt, Roberts, Sobel, LoG, Canny and thermedge on one sheet");
   auto command = std::make_shared<CompareCommand>();
   command->add_to(app);
   command->common.add_validity_to(app);
   FigureOutput::add_options_to(app, command->format, command->panel_width);
+  std::vector<std::string> denoisers = names_of(kDenoiseMethods);
+  denoisers.emplace_back(kSame);
   app.add_option("--denoise", command->classical_denoiser,
-                 "denoiser in front of the classical detectors (thermedge's own: --set "
-                 "denoise.method=...)")
-      ->check(CLI::IsMember(names_of(kDenoiseMethods)))
+                 "input of the classical detectors: same (the picture that thermedge denoised), or "
+                 "the 8-bit view behind none, gaussian, nlm or bm3d; --set denoise.method=... sets "
+                 "thermedge's own denoiser")
+      ->check(CLI::IsMember(denoisers))
+      ->capture_default_str();
+  app.add_option("--canny-sigma", command->classical.canny_sigma_px,
+                 "Gaussian in front of the classical Canny, px (0: none)")
+      ->check(CLI::Range(0.0, 20.0))
+      ->capture_default_str();
+  app.add_option("--canny-high", command->canny_high,
+                 "gradient above which Canny has an edge: counts a pixel, or in units of the "
+                 "noise: 3sigma (0: automatic)")
+      ->capture_default_str();
+  app.add_option("--canny-low", command->canny_low,
+                 "gradient above which Canny continues an edge, likewise (0: 0.4 of the high one)")
       ->capture_default_str();
   app.add_option("--log-kernel", command->classical.log_kernel_px,
-                 "side of LoG's kernel, px (0: 13; paper: 9)")
+                 "side of LoG's kernel, px (paper: 9; 0: 13, as MATLAB has it)")
       ->check(CLI::Range(0, 61))
       ->capture_default_str();
   app.add_option("--write", command->maps,

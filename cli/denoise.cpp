@@ -103,7 +103,8 @@ int DenoiseCommand::run() const {
 
 void add_denoise(CLI::App& program, int& exit_code) {
   CLI::App& app = *program.add_subcommand(
-      "denoise", "frames with less noise, in counts; slower and finer than what detect does");
+      "denoise",
+      "remove noise from frames, in counts; slower than in detect, for a better picture");
   auto command = std::make_shared<DenoiseCommand>();
   command->common.add_to(app);
   command->common.add_validity_to(app);

@@ -1,5 +1,8 @@
 #include "edge_command.hpp"
 
+#include <algorithm>
+#include <vector>
+
 #include "clipping_warning.hpp"
 #include "result_writer.hpp"
 
@@ -13,6 +16,16 @@ void EdgeCommand::add_to(CLI::App& app) {
                  "of each point in JSON: position,normal,strength,sigma (default position,normal)");
   app.add_flag("--all-edges", all_edges,
                "JSON and CSV: edges that were dropped, too, with the reason");
+  app.add_flag("--explain", explain,
+               "overlays show dropped edges too, with a legend of why each was dropped");
+}
+
+Status EdgeCommand::check_explain() const {
+  const std::vector<std::string> kinds = split_list(write);
+  if (explain && std::find(kinds.begin(), kinds.end(), "overlay") == kinds.end()) {
+    return failure(ErrorCode::kInvalidArgument, "--explain needs --write overlay");
+  }
+  return {};
 }
 
 int EdgeCommand::run_on_frames(const Step& step) const {
@@ -23,6 +36,10 @@ int EdgeCommand::run_on_frames(const Step& step) const {
         if (!writer) {
           return console.fail(writer.error());
         }
+        if (const Status status = check_explain(); !status) {
+          return console.fail(status.error());
+        }
+        writer->explain_overlays(explain);
         auto detector = Detector::create(options);
         if (!detector) {
           return console.fail(detector.error());

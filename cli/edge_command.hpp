@@ -13,6 +13,7 @@ struct EdgeCommand : DetectorCommand {
   std::string write;                  // kinds of results
   std::optional<std::string> points;  // what JSON has of each point
   bool all_edges = false;
+  bool explain = false;
 
   void add_to(CLI::App& app);
 
@@ -20,6 +21,9 @@ struct EdgeCommand : DetectorCommand {
   // code.
   using Step = std::function<Status(Detector&, const io::SourceFrame&, Detection&)>;
   [[nodiscard]] int run_on_frames(const Step& step) const;
+
+ private:
+  [[nodiscard]] Status check_explain() const;
 };
 
 }  // namespace thermedge::cli

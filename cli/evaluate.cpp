@@ -121,40 +121,43 @@ int EvaluateCommand::run() {
 
 void add_evaluate(CLI::App& program, int& exit_code) {
   CLI::App& app = *program.add_subcommand(
-      "evaluate", "edges against truth: precision, recall, F, structure, positions");
+      "evaluate", "compare edges with the true ones: precision, recall, F, structure, positions");
   auto command = std::make_shared<EvaluateCommand>();
   eval::EvaluationOptions& options = command->options;
   app.add_option("PRED", command->found,
                  "directory of edge maps (8-bit PNG, 255 strongest) or of results (JSON), one such "
                  "file, or JSON lines (.jsonl)")
       ->required();
-  app.add_option("GT", command->truth,
-                 "truth by base name: .npz, .mat (BSDS), .png, _*.png or .json in a directory, one "
-                 "such file, or JSON lines (.jsonl); without: structure and repeatability");
+  app.add_option(
+      "GT", command->truth,
+      "true edges: a directory in which each result's file name is looked for as .npz, .mat "
+      "(BSDS), .png, _*.png or .json; one such file; or JSON lines (.jsonl). Without: "
+      "structure and repeatability");
   app.add_option("--at", options.at, "only at this threshold")->check(CLI::Range(1, 255));
   app.add_option("--thresholds", options.thresholds, "number of thresholds for strength maps")
       ->check(CLI::Range(1, 254))
       ->capture_default_str();
   app.add_flag("--no-thin", command->no_thin,
-               "thin strength maps once instead of at every threshold: many times as fast");
+               "thin strength maps once instead of at every threshold, which is many times faster");
   app.add_option("--max-dist", options.count.max_distance,
-                 "of matched pixels, share of the diagonal")
+                 "largest distance of two matched pixels, as a share of the diagonal")
       ->check(CLI::Range(0.0, 0.1))
       ->capture_default_str();
   app.add_option("--least-contrast", command->least_contrast_counts,
-                 "weaker true edges (curves) may be found but need not be, counts")
+                 "true curves of less contrast, in counts, may be found or missed")
       ->check(CLI::Range(0.0, 65535.0))
       ->capture_default_str();
   app.add_option("--sigma", options.sigma_counts,
-                 "noise for recall by contrast, counts (0: as the results say)")
+                 "noise in counts, for recall by contrast (0: taken from the results)")
       ->check(CLI::Range(0.0, 65535.0))
       ->capture_default_str();
   app.add_option("--shift", options.most_shift_px,
-                 "without GT: largest motion between frames that is tried, px")
+                 "without GT: largest motion between two frames, px")
       ->check(CLI::Range(0, 64))
       ->capture_default_str();
-  app.add_flag("--empty", command->empty, "the scenes are empty: count false alarms");
-  app.add_option("-o,--output", command->output, "file for the page, or for JSON (.json)");
+  app.add_flag("--empty", command->empty, "the scenes hold no edges: count false alarms");
+  app.add_option("-o,--output", command->output,
+                 "file for the result: a page of text, or JSON (.json)");
   app.add_flag("--json", command->json, "one JSON object instead of the page");
   command->add_to(app);
   app.callback([command, &exit_code] { exit_code = command->run(); });

@@ -139,9 +139,9 @@ std::string evaluation_page(const eval::TruthlessEvaluation& evaluation,
                         threshold_text(evaluation.threshold)));
   page.heading(empty ? "False alarms in empty scenes" : "What was found");
   page.row("edges", number(evaluation.edges.mean, 2),
-           fmt::format("per frame, {} at the most", evaluation.edges.most));
+           fmt::format("per frame, at most {}", evaluation.edges.most));
   page.row("edge pixels", number(evaluation.edge_pixels.mean, 1),
-           fmt::format("per frame, {} at the most", evaluation.edge_pixels.most));
+           fmt::format("per frame, at most {}", evaluation.edge_pixels.most));
   if (empty) {
     return page.take();
   }

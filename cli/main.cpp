@@ -48,6 +48,8 @@ int run(int argc, char** argv) {
   add_denoise(program, exit_code);
   add_stages(program, exit_code);
   add_compare(program, exit_code);
+  add_radiation(program, exit_code);
+  add_snr(program, exit_code);
   add_bench(program, exit_code);
   add_probe(program, exit_code);
   add_simulate(program, exit_code);

@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "standard_output.hpp"
+#include "thermedge/figures/explained_overlay.hpp"
 #include "thermedge/io/overlay.hpp"
 
 namespace thermedge::cli {
@@ -252,6 +253,9 @@ Status ResultWriter::write_kind(const std::string& kind, const std::string& path
   }
   if (kind == "svg") {
     return io::write_file(path, io::edges_to_svg(detection, source));
+  }
+  if (kind == "overlay" && explain_) {
+    return figures::draw_explained_overlay(detection, counts).write(path);
   }
   if (kind == "overlay") {
     io::draw_overlay(detection, counts, colour_);

@@ -43,6 +43,9 @@ class ResultWriter {
   // Where results are, for people: "out/mask, out/json".
   [[nodiscard]] std::string place() const;
 
+  // Whether overlays show dropped edges and why they were dropped.
+  void explain_overlays(bool explain) { explain_ = explain; }
+
   // `counts`: what an overlay lies on; empty where there is no frame.
   [[nodiscard]] Status write(const Detection& detection, ImageView<const std::uint16_t> counts,
                              const std::string& source, const std::string& stem);
@@ -63,6 +66,7 @@ class ResultWriter {
   Mode mode_;
   std::string output_;
   std::vector<std::string> kinds_;
+  bool explain_ = false;
   io::EdgesFileOptions edges_;
   OutputDirectory directory_;
   LineFile stream_;

@@ -26,15 +26,19 @@ struct ScaleCommand {
   bool stable = false;
   StableGreyScaleOptions view;
 
-  [[nodiscard]] int run() const;
+  [[nodiscard]] int run();
 
  private:
   [[nodiscard]] Status write(const io::SourceFrame& frame, ImageView<std::uint8_t> levels,
                              PictureOutput& output) const;
+  [[nodiscard]] bool passes_as_it_is(const io::SourceFrame& frame, Console& report);
+  [[nodiscard]] Status write_as_it_is(const io::SourceFrame& frame, PictureOutput& output) const;
   [[nodiscard]] int run_algorithm1(const io::SourceOptions& source, Console& report,
-                                   PictureOutput& output) const;
+                                   PictureOutput& output);
   [[nodiscard]] int run_stable(const io::SourceOptions& source, Console& report,
-                               PictureOutput& output) const;
+                               PictureOutput& output);
+
+  bool note_is_said_ = false;
 };
 
 Status ScaleCommand::write(const io::SourceFrame& frame, ImageView<std::uint8_t> levels,
@@ -42,6 +46,28 @@ Status ScaleCommand::write(const io::SourceFrame& frame, ImageView<std::uint8_t>
   return output.path(frame.stem).and_then([&](const std::string& path) {
     return io::write_picture(path, ImageView<const std::uint8_t>(levels));
   });
+}
+
+// Frames of 8 bits are grey levels already. Says so once.
+bool ScaleCommand::passes_as_it_is(const io::SourceFrame& frame, Console& report) {
+  if (frame.bits != 8) {
+    return false;
+  }
+  if (!note_is_said_) {
+    note_is_said_ = true;
+    report.note(frame.source + ": 8-bit frames are grey levels already and are written unchanged" +
+                (gain ? "; --gain does not apply to them" : ""));
+  }
+  return true;
+}
+
+Status ScaleCommand::write_as_it_is(const io::SourceFrame& frame, PictureOutput& output) const {
+  Image<std::uint8_t> levels(frame.width(), frame.height());
+  for (int y = 0; y < levels.height(); ++y) {
+    std::transform(frame.counts.row(y), frame.counts.row(y) + levels.width(), levels.row(y),
+                   [](std::uint16_t level) { return static_cast<std::uint8_t>(level); });
+  }
+  return write(frame, levels, output);
 }
 
 // Of a float frame in degrees, gain is in levels a hundredth of a degree, as that of counts.
@@ -54,7 +80,7 @@ GreyScaleOptions for_frame(GreyScaleOptions options, const io::SourceFrame& fram
 }
 
 int ScaleCommand::run_algorithm1(const io::SourceOptions& source, Console& report,
-                                 PictureOutput& output) const {
+                                 PictureOutput& output) {
   GreyScaleOptions options;
   options.gain = gain.value_or(options.gain);
   if (const Status status = options.check(); !status) {
@@ -64,6 +90,9 @@ int ScaleCommand::run_algorithm1(const io::SourceOptions& source, Console& repor
   Image<std::uint8_t> levels;
   return for_each_frame(
       common, source, report, output.room(), [&](const io::SourceFrame& frame) -> Status {
+        if (passes_as_it_is(frame, report)) {
+          return write_as_it_is(frame, output);
+        }
         const GreyScaleOptions scaled = for_frame(options, frame);
         levels.resize(frame.width(), frame.height());
         if (!frame.is_float()) {
@@ -103,8 +132,40 @@ std::string state_line(const io::SourceFrame& frame, const GreyScaleState& state
   return line.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
+// How many frames of a sequence lose much.
+class ClippedFrames {
+ public:
+  void add(const std::string& source, double share) {
+    ++frames_;
+    if (share > kMuchClippedShare) {
+      ++clipped_;
+    }
+    if (share > most_) {
+      most_ = share;
+      source_ = source;
+    }
+  }
+
+  void warn(bool gain_is_given, Console& console) const {
+    if (clipped_ == 0) {
+      return;
+    }
+    console.warn(
+        fmt::format("frames with more than {:g} % of their pixels clipped: {} of {}; the most, "
+                    "{:.1f} %, in {}{}",
+                    100 * kMuchClippedShare, clipped_, frames_, 100 * most_, source_,
+                    gain_is_given ? "; a smaller --gain, or none, clips less" : ""));
+  }
+
+ private:
+  std::size_t frames_ = 0;
+  std::size_t clipped_ = 0;
+  double most_ = 0;
+  std::string source_;  // of the frame that loses most
+};
+
 int ScaleCommand::run_stable(const io::SourceOptions& source, Console& report,
-                             PictureOutput& output) const {
+                             PictureOutput& output) {
   StableGreyScaleOptions options = view;
   options.gain = gain.value_or(options.gain);
   if (const Status status = check_options(options); !status) {
@@ -115,27 +176,30 @@ int ScaleCommand::run_stable(const io::SourceOptions& source, Console& report,
     return report.fail(state_file.error());
   }
   StableGreyScale stable_grey_scale(options);
-  std::optional<ClippingWarning> clipping;  // of the gain that the first frame has chosen
+  ClippedFrames clipped;
   Image<std::uint8_t> levels;
   LineFile lines(*state_file);
-  return for_each_frame(
+  const int code = for_each_frame(
       common, source, report, output.room(), [&](const io::SourceFrame& frame) -> Status {
+        if (passes_as_it_is(frame, report)) {
+          return write_as_it_is(frame, output).and_then([&] {
+            return report.or_end_run(lines.write(state_line(frame, {.gain = 1})));
+          });
+        }
         levels.resize(frame.width(), frame.height());
         return stable_grey_scale.run(frame.counts, levels)
             .and_then([&](const GreyScaleState& state) {
-              if (!clipping) {
-                clipping.emplace("--gain ", state.gain, "");
-              }
-              clipping->frame(frame.source, frame.counts,
-                              {state.clipped_low_share, state.clipped_high_share}, report);
+              clipped.add(frame.source, state.clipped_low_share + state.clipped_high_share);
               return write(frame, levels, output).and_then([&] {
                 return report.or_end_run(lines.write(state_line(frame, state)));
               });
             });
       });
+  clipped.warn(options.gain > 0, report);
+  return code;
 }
 
-int ScaleCommand::run() const {
+int ScaleCommand::run() {
   Console report = common.report();
   const auto source = common.prepare();
   if (!source) {
@@ -152,23 +216,26 @@ int ScaleCommand::run() const {
 }  // namespace
 
 void add_scale(CLI::App& program, int& exit_code) {
-  CLI::App& app =
-      *program.add_subcommand("scale", "16 bit to 8 bit at constant degrees per grey level");
+  CLI::App& app = *program.add_subcommand(
+      "scale", "16-bit frames to 8-bit pictures at a constant number of degrees per grey level");
   auto command = std::make_shared<ScaleCommand>();
   command->common.add_to(app);
   app.get_option("-o")->required();
-  app.add_option("--gain", command->gain,
-                 "grey levels per count (default 0.5; with --stable 0.2, and 0: from the noise)")
+  app.add_option(
+         "--gain", command->gain,
+         "grey levels per count (default 0.5; with --stable 0: chosen from range and noise)")
       ->check(CLI::Range(0.0, 1000.0));
   CLI::Option* stable = app.add_flag(
       "--stable", command->stable,
-      "a view that does not flicker: its centre is held; gain, offset and events in scale.jsonl");
+      "for sequences: gain and offset are held and follow slowly, so that the picture does not "
+      "flicker; both are written to scale.jsonl");
   app.add_option("--dead-band", command->view.dead_band_levels,
-                 "levels that the median may move before the view follows")
+                 "grey levels by which the median may move before the view follows")
       ->check(CLI::Range(0.0, 127.0))
       ->capture_default_str()
       ->needs(stable);
-  app.add_option("--slew", command->view.slew_levels, "levels a frame that the view may move")
+  app.add_option("--slew", command->view.slew_levels,
+                 "grey levels by which the view may move from frame to frame")
       ->check(CLI::Range(0.0, 255.0))
       ->capture_default_str()
       ->needs(stable);

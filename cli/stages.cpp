@@ -52,7 +52,7 @@ int StagesCommand::draw() const {
 
 void add_stages(CLI::App& program, int& exit_code) {
   CLI::App& app = *program.add_subcommand(
-      "stages", "every step from the frame to its edges as pictures, and all on one sheet");
+      "stages", "draw every step from the frame to its edges, as pictures and on one sheet");
   auto command = std::make_shared<StagesCommand>();
   command->add_to(app);
   command->add_denoising_to(app);

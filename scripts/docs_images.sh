@@ -1,9 +1,12 @@
 #!/usr/bin/env bash
-# Renews the pictures of the README from the simulator. Needs the built program.
+# Renews the pictures of the README that the program makes. Needs the built program. The line
+# drawings of a real camera need its frames in ../shared (or where THERMEDGE_SHARED points), which
+# are not part of the repository; without them they stay as they are.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 thermedge=build/release/thermedge
 out=docs/images
+frames=${THERMEDGE_SHARED:-../shared}/data/optris_pi450
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
@@ -14,3 +17,14 @@ cp "$work/overlay/desk.png" "$out/desk_overlay.png"
 "$thermedge" stages 'sim:desk?sigma=12' -o "$out/stages.png" --panel-px 300
 "$thermedge" compare 'sim:desk?sigma=12' -o "$out/compare.png" --panel-px 300
 "$thermedge" probe 'sim:desk?sigma=12&frames=60' -o "$out/probe.png" --panel-px 300 >/dev/null
+
+if [ -d "$frames" ]; then
+  for frame in 000000 000030; do
+    "$thermedge" compare "$frames/frame$frame.png" -o "$work/pi450" --write canny,thermedge
+    for detector in canny thermedge; do
+      cp "$work/pi450/frame$frame/$detector.png" "$out/pi450_${frame: -2}_$detector.png"
+    done
+  done
+else
+  echo "$frames is missing: the line drawings of the PI450 stay as they are"
+fi

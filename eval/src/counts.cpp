@@ -13,6 +13,38 @@
 namespace thermedge::eval {
 namespace {
 
+// 1 where the strength is at least the threshold.
+void set_at(ImageView<const std::uint8_t> strength, double threshold, Image<std::uint8_t>& map) {
+  map.resize(strength.width(), strength.height());
+  for (int y = 0; y < strength.height(); ++y) {
+    std::transform(
+        strength.row(y), strength.row(y) + strength.width(), map.row(y),
+        [&](std::uint8_t value) { return static_cast<std::uint8_t>(value >= threshold ? 1 : 0); });
+  }
+}
+
+bool same_pixels(ImageView<const std::uint8_t> map, ImageView<const std::uint8_t> truth) {
+  for (int y = 0; y < map.height(); ++y) {
+    if (!std::equal(map.row(y), map.row(y) + map.width(), truth.row(y),
+                    [](std::uint8_t a, std::uint8_t b) { return (a != 0) == (b != 0); })) {
+      return false;
+    }
+  }
+  return true;
+}
+
+bool is_any_of(ImageView<const std::uint8_t> map, std::span<const Image<std::uint8_t>> annotators) {
+  return std::any_of(annotators.begin(), annotators.end(), [&](const Image<std::uint8_t>& truth) {
+    return same_pixels(map, truth.view());
+  });
+}
+
+bool is_truth(ImageView<const std::uint8_t> strength, int threshold, const TruthMaps& truth) {
+  Image<std::uint8_t> map;
+  set_at(strength, threshold, map);
+  return is_any_of(map.view(), truth.annotators);
+}
+
 double share(std::int64_t part, std::int64_t whole) {
   return static_cast<double>(part) / static_cast<double>(std::max<std::int64_t>(whole, 1));
 }
@@ -22,7 +54,7 @@ class Counter {
  public:
   Counter(ImageView<const std::uint8_t> strength, const TruthMaps& truth, int lowest,
           const CountOptions& options)
-      : strength_(strength) {
+      : strength_(strength), truth_(truth.annotators) {
     for (int y = 0; y < strength.height(); ++y) {
       for (int x = 0; x < strength.width(); ++x) {
         if (strength(x, y) >= lowest) {
@@ -63,6 +95,7 @@ class Counter {
   [[nodiscard]] std::vector<std::int32_t> thinned(int threshold) const;
 
   ImageView<const std::uint8_t> strength_;
+  std::span<const Image<std::uint8_t>> truth_;
   std::vector<Pixel> pixels_;
   std::array<int, 256> histogram_{};
   std::vector<MatchGraph> annotators_;
@@ -71,7 +104,7 @@ class Counter {
 
 std::vector<std::int32_t> Counter::thinned(int threshold) const {
   Image<std::uint8_t> map;
-  thin_at(strength_, threshold, map);
+  found_at(strength_, threshold, truth_, map);
   std::vector<std::int32_t> left;
   for (std::size_t i = 0; i < pixels_.size(); ++i) {
     if (map(pixels_[i].x, pixels_[i].y) != 0) {
@@ -169,8 +202,13 @@ double f_measure(double precision, double recall) {
   return 2 * precision * recall / std::max(precision + recall, 1e-12);
 }
 
-double MatchCounts::recall() const { return share(truth_matched, truth); }
-double MatchCounts::precision() const { return share(found_matched, found); }
+// Where there is nothing to find and nothing was found, all is right.
+double MatchCounts::recall() const {
+  return truth == 0 && found == 0 ? 1 : share(truth_matched, truth);
+}
+double MatchCounts::precision() const {
+  return truth == 0 && found == 0 ? 1 : share(found_matched, found);
+}
 double MatchCounts::f_measure() const { return eval::f_measure(precision(), recall()); }
 
 MatchCounts& MatchCounts::operator+=(const MatchCounts& other) {
@@ -189,13 +227,16 @@ double match_radius_px(const CountOptions& options, int width, int height) {
 }
 
 void thin_at(ImageView<const std::uint8_t> strength, double threshold, Image<std::uint8_t>& map) {
-  map.resize(strength.width(), strength.height());
-  for (int y = 0; y < strength.height(); ++y) {
-    std::transform(
-        strength.row(y), strength.row(y) + strength.width(), map.row(y),
-        [&](std::uint8_t value) { return static_cast<std::uint8_t>(value >= threshold ? 1 : 0); });
-  }
+  set_at(strength, threshold, map);
   thin(map);
+}
+
+void found_at(ImageView<const std::uint8_t> strength, double threshold,
+              std::span<const Image<std::uint8_t>> annotators, Image<std::uint8_t>& map) {
+  set_at(strength, threshold, map);
+  if (!is_any_of(map.view(), annotators)) {
+    thin(map);
+  }
 }
 
 Result<std::vector<MatchCounts>> count_matches(ImageView<const std::uint8_t> strength,
@@ -208,7 +249,7 @@ Result<std::vector<MatchCounts>> count_matches(ImageView<const std::uint8_t> str
   if (thresholds.empty()) {
     return std::vector<MatchCounts>{};
   }
-  if (options.thin) {
+  if (options.thin || (thresholds.size() == 1 && is_truth(strength, thresholds.front(), truth))) {
     return Counter(strength, truth, thresholds.front(), options).thin_each(thresholds);
   }
   Image<std::uint8_t> thinned(strength.width(), strength.height());

@@ -35,16 +35,20 @@ void for_each_part(const Curve& curve, F&& visit) {
   }
 }
 
-// Calls visit(middle, length) for equal pieces of at most kPiecePx.
+// Calls visit(middle, length) for equal pieces of at most kPiecePx between two points.
+template <class F>
+void for_each_piece(Point from, Point to, F&& visit) {
+  const double length = distance(from, to);
+  const int pieces = std::max(1, static_cast<int>(std::ceil(length / kPiecePx)));
+  for (int i = 0; i < pieces; ++i) {
+    visit(between(from, to, (i + 0.5) / pieces), length / pieces);
+  }
+}
+
+// The same for all parts of a curve.
 template <class F>
 void for_each_piece(const Curve& curve, F&& visit) {
-  for_each_part(curve, [&](Point from, Point to) {
-    const double length = distance(from, to);
-    const int pieces = std::max(1, static_cast<int>(std::ceil(length / kPiecePx)));
-    for (int i = 0; i < pieces; ++i) {
-      visit(between(from, to, (i + 0.5) / pieces), length / pieces);
-    }
-  });
+  for_each_part(curve, [&](Point from, Point to) { for_each_piece(from, to, visit); });
 }
 
 }  // namespace thermedge::eval

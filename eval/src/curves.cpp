@@ -62,18 +62,26 @@ Repeatability count_repeated(const CurveFrame& from, const CurveFrame& to,
 void draw_curves(const CurveFrame& frame, double least_contrast_counts, Image<std::uint8_t>& map) {
   map.resize(frame.width, frame.height);
   fill_pixels(map.view(), std::uint8_t{0});
+  const auto pixel_of = [](double position) { return std::floor(position + 0.5); };
   const auto paint = [&](Point point) {
     if (inside(frame, point)) {
-      map(static_cast<int>(std::floor(point.x + 0.5)),
-          static_cast<int>(std::floor(point.y + 0.5))) = 255;
+      map(static_cast<int>(pixel_of(point.x)), static_cast<int>(pixel_of(point.y))) = 255;
     }
+  };
+  const auto touch = [&](Point a, Point b) {
+    return std::abs(pixel_of(a.x) - pixel_of(b.x)) <= 1 &&
+           std::abs(pixel_of(a.y) - pixel_of(b.y)) <= 1;
   };
   for (const Curve& curve : frame.curves) {
     if (curve.contrast_counts < least_contrast_counts) {
       continue;
     }
     std::for_each(curve.points.begin(), curve.points.end(), paint);
-    for_each_piece(curve, [&](Point middle, double) { paint(middle); });
+    for_each_part(curve, [&](Point from, Point to) {
+      if (!touch(from, to)) {
+        for_each_piece(from, to, [&](Point middle, double) { paint(middle); });
+      }
+    });
   }
 }
 

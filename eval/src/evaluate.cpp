@@ -40,7 +40,7 @@ void compare_curves(const CurveFrame& found, const CurveFrame& truth,
 void judge_at(double threshold, const Prediction& found, const TrueEdges& truth,
               const EvaluationOptions& options, FrameFigures& figures) {
   Image<std::uint8_t> map;
-  thin_at(found.map.view(), threshold, map);
+  found_at(found.map.view(), threshold, truth.maps.annotators, map);
   figures.merit = pratt_merit(map.view(), truth.maps.annotators);
   figures.structure = measure_structure(map.view(), options.short_px);
   if (found.curves && truth.curves) {

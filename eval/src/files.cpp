@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bitset>
 #include <filesystem>
 #include <functional>
 #include <system_error>
@@ -66,6 +67,20 @@ Prediction drawn(CurveFrame curves) {
   draw_curves(curves, 0, edges.map);
   edges.curves = std::move(curves);
   return edges;
+}
+
+// Highest value that is no edge: of a picture of 0 and one other value, and of one of 1 alone, 0;
+// else the middle of the scale.
+int highest_of_none(ImageView<const std::uint8_t> picture) {
+  constexpr int kMiddle = 127;
+  std::bitset<256> values;
+  for (int y = 0; y < picture.height(); ++y) {
+    std::for_each(picture.row(y), picture.row(y) + picture.width(),
+                  [&](std::uint8_t value) { values.set(value); });
+  }
+  const bool two = values.count() == 2 && values[0];
+  const bool ones = values.count() == 1 && values[1];
+  return two || ones ? 0 : kMiddle;
 }
 
 // A map of curves as annotators draw it: one pixel wide.
@@ -233,9 +248,8 @@ Result<TrueEdges> GroundTruthSet::read_file(const std::string& path) const {
     return from_curves(read_curves(path, options_.limits));
   }
   return read_edge_map(path, options_.limits).map([&](const Image<std::uint8_t>& picture) {
-    constexpr int kMiddle = 127;
     TruthMaps maps;
-    maps.annotators.push_back(map_above(picture.view(), kMiddle));
+    maps.annotators.push_back(map_above(picture.view(), highest_of_none(picture.view())));
     return with_maps(std::move(maps));
   });
 }

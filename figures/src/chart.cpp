@@ -101,6 +101,12 @@ void Chart::bar(double x0, double x1, int row, Rgb colour, std::string_view text
       text, style);
 }
 
+void Chart::label(const Point& place, std::string_view text, Rgb colour) {
+  const Point corner = at(place.x, place.y);
+  canvas_.text({corner.x + 0.8 * unit_, corner.y - 0.8 * unit_}, text,
+               {.size = 2.5 * unit_, .colour = colour});
+}
+
 void Chart::horizontal(double y, Rgb colour) {
   const Point ends[] = {at(x_.min, y), at(x_.max, y)};
   canvas_.line(ends, false, colour, 0.25 * unit_);

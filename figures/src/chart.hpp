@@ -34,6 +34,8 @@ class Chart {
   // A horizontal bar from x0 to x1 with a text after it, as the `row`-th from above.
   void bar(double x0, double x1, int row, Rgb colour, std::string_view text);
   void horizontal(double y, Rgb colour);
+  // A text to the upper right of a place.
+  void label(const Point& place, std::string_view text, Rgb colour);
 
  private:
   [[nodiscard]] Point at(double x, double y) const;

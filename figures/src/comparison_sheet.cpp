@@ -20,6 +20,13 @@ namespace {
 constexpr int kColumns = 4;
 constexpr int kRuns = 5;
 
+// What the classical detectors run on, and its unit.
+struct ClassicalInput {
+  Image<float> picture;
+  double units_per_count = 1;
+  double shared_ms = 0;  // that thermedge took to make the picture
+};
+
 double median(std::array<double, kRuns> values) {
   std::nth_element(values.begin(), values.begin() + kRuns / 2, values.end());
   return values[kRuns / 2];
@@ -81,6 +88,24 @@ Panel table_panel(std::span<const ComparedMap> maps, double aspect) {
           }};
 }
 
+Status check_thresholds(const CannyThresholds& thresholds) {
+  for (const auto& threshold : {thresholds.high, thresholds.low}) {
+    if (!(threshold.value >= 0 && threshold.value <= 1e6)) {
+      return failure(ErrorCode::kInvalidArgument,
+                     "Canny's thresholds should be 0 to 1e6 counts or sigma a pixel");
+    }
+  }
+  if (thresholds.low.value > 0 && thresholds.high.value == 0) {
+    return failure(ErrorCode::kInvalidArgument,
+                   "Canny's low threshold needs the high one beside it");
+  }
+  if (thresholds.low.unit == thresholds.high.unit && thresholds.low.value > thresholds.high.value) {
+    return failure(ErrorCode::kInvalidArgument,
+                   "Canny's low threshold should not be above the high one");
+  }
+  return {};
+}
+
 }  // namespace
 
 struct ComparisonSheet::Impl {
@@ -88,8 +113,7 @@ struct ComparisonSheet::Impl {
       : options(chosen),
         runner(make_runner(chosen.detector.threads)),
         detector(std::move(made)),
-        denoiser(plain(chosen.classical_denoiser)),
-        classical(chosen.classical) {}
+        denoiser(plain(chosen.classical_denoiser.value_or(DenoiseMethod::kNone))) {}
 
   static DenoiseOptions plain(DenoiseMethod method) {
     DenoiseOptions options;
@@ -97,40 +121,99 @@ struct ComparisonSheet::Impl {
     return options;
   }
 
-  Result<ComparedMap> run_classical(const ClassicalName& method, ImageView<const float> levels,
-                                    double sigma_levels);
+  [[nodiscard]] ClassicalInput input_of(int bits, Intermediates& steps) const;
+  [[nodiscard]] Result<ClassicalOptions> classical_options(double units_per_count) const;
+  Result<ComparedMap> run_classical(const ClassicalName& method, const ClassicalInput& input,
+                                    ClassicalDetector& classical);
   Result<ComparedMap> run_thermedge(const Frame& frame);
   Result<Comparison> draw(ImageView<const std::uint16_t> frame, int bits, const std::string& source,
                           ImageView<const std::uint8_t> valid);
   [[nodiscard]] Figure sheet(ImageView<const std::uint16_t> frame,
                              std::span<const ComparedMap> maps, const std::string& source) const;
+  [[nodiscard]] std::string what_ran() const;
+  [[nodiscard]] std::string log_text() const;
+  [[nodiscard]] std::string canny_text() const;
 
   ComparisonOptions options;
   std::unique_ptr<ParallelRunner> runner;
   Detector detector;
   Detection detection;
   Denoiser denoiser;
-  ClassicalDetector classical;
 };
 
+// Of the last run of thermedge, whose times `detection` holds.
+ClassicalInput ComparisonSheet::Impl::input_of(int bits, Intermediates& steps) const {
+  const PaperOptions* paper = options.detector.paper();
+  const double gain =
+      bits == 8 ? 1 : (paper != nullptr ? paper->grey_scale : GreyScaleOptions{}).gain;
+  ClassicalInput input;
+  if (options.classical_denoiser) {
+    input.picture.resize(steps.levels.width(), steps.levels.height());
+    copy_pixels(steps.levels.view(), input.picture.view());
+    input.units_per_count = gain;
+    return input;
+  }
+  input.picture = std::move(steps.denoised_values);
+  input.units_per_count = paper != nullptr ? gain : 1;
+  for (const StageTime& time : detection.times) {
+    input.shared_ms += time.ms;
+    if (time.stage == "denoise") {
+      break;
+    }
+  }
+  return input;
+}
+
+// Canny's magnitude is that of the Sobel kernels, 8 times the gradient.
+Result<ClassicalOptions> ComparisonSheet::Impl::classical_options(double units_per_count) const {
+  constexpr double kSobelGain = 8;
+  const auto [high, low] = options.canny_thresholds;
+  ClassicalOptions made = options.classical;
+  if (high.value == 0) {
+    return made;
+  }
+  const double sigma = detection.sigma_counts;
+  const auto in_counts = [&](const Quantity<GradientUnit>& threshold) {
+    return threshold.value * (threshold.unit == GradientUnit::kSigma ? sigma : 1);
+  };
+  if (in_counts(high) == 0 || (low.value > 0 && in_counts(low) == 0)) {
+    return failure(ErrorCode::kInvalidArgument,
+                   "the frame has no measurable noise; give Canny's thresholds in counts");
+  }
+  made.canny.high_threshold = kSobelGain * units_per_count * in_counts(high);
+  if (low.value > 0) {
+    made.canny.low_over_high = in_counts(low) / in_counts(high);
+  }
+  if (made.canny.low_over_high > 1) {
+    return failure(ErrorCode::kInvalidArgument,
+                   "Canny's low threshold should not be above the high one");
+  }
+  return made;
+}
+
 Result<ComparedMap> ComparisonSheet::Impl::run_classical(const ClassicalName& method,
-                                                         ImageView<const float> levels,
-                                                         double sigma_levels) {
+                                                         const ClassicalInput& input,
+                                                         ClassicalDetector& classical) {
   ComparedMap map;
   map.name = method.name;
   map.display = method.display;
-  map.edges.resize(levels.width(), levels.height());
-  Image<float> denoised(levels.width(), levels.height());
-  return timed([&] {
-           return denoiser.run_measured(levels, sigma_levels, denoised, *runner).and_then([&] {
-             return classical.run(denoised, method.method, map.edges, *runner);
-           });
-         })
-      .map([&](double ms) {
-        map.ms = ms;
-        count(map);
-        return std::move(map);
-      });
+  const ImageView<const float> picture = input.picture.view();
+  map.edges.resize(picture.width(), picture.height());
+  Image<float> denoised(picture.width(), picture.height());
+  const double sigma = detection.sigma_counts * input.units_per_count;
+  const auto work = [&]() -> Status {
+    if (!options.classical_denoiser) {
+      return classical.run(picture, method.method, map.edges, *runner);
+    }
+    return denoiser.run_measured(picture, sigma, denoised, *runner).and_then([&] {
+      return classical.run(denoised, method.method, map.edges, *runner);
+    });
+  };
+  return timed(work).map([&](double ms) {
+    map.ms = ms + input.shared_ms;
+    count(map);
+    return std::move(map);
+  });
 }
 
 Result<ComparedMap> ComparisonSheet::Impl::run_thermedge(const Frame& frame) {
@@ -159,24 +242,23 @@ Result<Comparison> ComparisonSheet::Impl::draw(ImageView<const std::uint16_t> fr
   if (Status status = detector.detect(given, detection, {&steps, {}}); !status) {
     return tl::unexpected(status.error());
   }
-  Image<float> levels(frame.width(), frame.height());
-  copy_pixels(steps.levels.view(), levels.view());
-  const PaperOptions* paper = options.detector.paper();
-  const double gain =
-      bits == 8 ? 1 : (paper != nullptr ? paper->grey_scale : GreyScaleOptions{}).gain;
-  const double sigma_levels = detection.sigma_counts * gain;
-
+  auto thermedge_map = run_thermedge(given);
+  if (!thermedge_map) {
+    return tl::unexpected(thermedge_map.error());
+  }
+  const ClassicalInput input = input_of(bits, steps);
+  const auto chosen = classical_options(input.units_per_count);
+  if (!chosen) {
+    return tl::unexpected(chosen.error());
+  }
+  ClassicalDetector classical(*chosen);
   std::vector<ComparedMap> maps;
   for (const ClassicalName& method : kClassicalMethods) {
-    auto map = run_classical(method, levels.view(), sigma_levels);
+    auto map = run_classical(method, input, classical);
     if (!map) {
       return tl::unexpected(map.error());
     }
     maps.push_back(std::move(*map));
-  }
-  auto thermedge_map = run_thermedge(given);
-  if (!thermedge_map) {
-    return tl::unexpected(thermedge_map.error());
   }
   maps.push_back(std::move(*thermedge_map));
   Figure drawn = sheet(frame, maps, source);
@@ -200,21 +282,58 @@ Figure ComparisonSheet::Impl::sheet(ImageView<const std::uint16_t> frame,
     }
     panels.push_back(map_panel(maps[i]));
   }
-  const bool plain = options.classical_denoiser == DenoiseMethod::kNone;
   const SheetText text = {
       .title = "Edge detectors compared",
-      .subtitle =
-          fmt::format("{}; the classical detectors run on its 8-bit view{}", source,
-                      plain ? std::string(", not denoised")
-                            : fmt::format(" after {}", display_name(options.classical_denoiser))),
+      .subtitle = source + "; " + what_ran(),
       .footer =
           "After figures 14 and 15 of Vu Hoang Minh et al. 2017. The classical detectors are "
-          "those of MATLAB's edge with its automatic thresholds."};
+          "those of MATLAB's edge with its automatic thresholds" +
+          log_text() + canny_text() + "."};
   return make_sheet(text, panels, kColumns, panel_width_for(detection.width, options.panel_width));
+}
+
+std::string ComparisonSheet::Impl::what_ran() const {
+  const DenoiseMethod own = options.detector.denoise.method;
+  if (!options.classical_denoiser) {
+    return own == DenoiseMethod::kNone
+               ? std::string("all detectors run on the same picture, not denoised")
+               : fmt::format("all detectors run on the same picture, denoised by {}",
+                             display_name(own));
+  }
+  return fmt::format("the classical detectors run on its 8-bit view{}",
+                     *options.classical_denoiser == DenoiseMethod::kNone
+                         ? std::string(", not denoised")
+                         : fmt::format(" after {}", display_name(*options.classical_denoiser)));
+}
+
+std::string ComparisonSheet::Impl::log_text() const {
+  const int side = options.classical.log_kernel_px;
+  return side == 0 ? "" : fmt::format("; LoG: kernel of {0}x{0} px", side);
+}
+
+// What of Canny is not as MATLAB has it.
+std::string ComparisonSheet::Impl::canny_text() const {
+  const auto text = [](const Quantity<GradientUnit>& threshold) {
+    return fmt::format("{:g} {}", threshold.value,
+                       threshold.unit == GradientUnit::kSigma ? "sigma a pixel" : "counts a pixel");
+  };
+  const auto [high, low] = options.canny_thresholds;
+  std::string changes;
+  if (options.classical.canny_sigma_px != ClassicalOptions{}.canny_sigma_px) {
+    changes = fmt::format(", Gaussian {:g} px", options.classical.canny_sigma_px);
+  }
+  if (high.value > 0) {
+    changes += ", high threshold " + text(high);
+  }
+  if (low.value > 0) {
+    changes += ", low threshold " + text(low);
+  }
+  return changes.empty() ? "" : "; Canny:" + changes.substr(1);
 }
 
 Result<ComparisonSheet> ComparisonSheet::create(const ComparisonOptions& options) {
   return check_options(options.classical)
+      .and_then([&] { return check_thresholds(options.canny_thresholds); })
       .and_then([&] { return Detector::create(options.detector); })
       .map([&](Detector&& detector) {
         return ComparisonSheet(std::make_unique<Impl>(options, std::move(detector)));

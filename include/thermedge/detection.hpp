@@ -50,6 +50,7 @@ struct Intermediates {
   Image<std::uint16_t> corrected;  // counts
   Image<std::uint8_t> levels;      // 8-bit view by Algorithm 1
   Image<std::uint8_t> denoised;    // 8-bit view of what edge pixels were found on
+  Image<float> denoised_values;    // the same before rounding: counts; of preset paper levels
   Image<std::uint8_t> edge_map;    // what was traced: 255 edge, 0 none
   ContourSet contours;             // before linking or closing of gaps
   LinkedContours linked;           // after it

@@ -97,7 +97,7 @@ struct Edge {
                          // its standard deviation by noise alone
   double log10_nfa = 0;  // log10 of the expected number of such edges in pure noise
   double length_px = 0;  // arc length
-  double contrast_counts = 0;  // mean step across the edge, counts
+  double contrast_counts = 0;  // mean step across the edge, counts; blur corrected (contrast.hpp)
   double contrast_sigmas = 0;  // the same in units of the noise where the edge lies, whatever the
                                // edge's length; infinite without noise
   bool closed = false;

@@ -38,7 +38,7 @@ struct RobustOptions {
 // Stages that only preset paper has.
 struct PaperOptions {
   GreyScaleOptions grey_scale;
-  CannyOptions canny;
+  CannyOptions canny{.blur = true};
   ContourOptions contours;
   LinkingOptions linking;
   PaperCornerOptions corners;

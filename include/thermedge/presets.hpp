@@ -11,7 +11,7 @@ namespace thermedge {
 enum class Preset {
   kRobust,  // the default: the best edges
   kFast,    // robust's stages after a Gaussian and a bilateral filter instead of BM3D
-  kPaper,   // the paper to the letter
+  kPaper,   // as the text of the paper says
 };
 
 inline constexpr std::array kPresets = {EnumName{Preset::kRobust, "robust"},

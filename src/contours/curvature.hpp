@@ -1,4 +1,4 @@
-// Smoothing and curvature of sampled curves (paper section 3.3, eq. 9).
+// Smoothing and curvature of sampled curves (paper section 3.2, eq. 9).
 #pragma once
 
 #include <cstddef>

@@ -25,7 +25,7 @@ std::size_t shortest_curve(const ContourOptions& options, int width, int height)
 }
 
 bool ends_meet(Pixel first, Pixel last, double gap_px) {
-  return static_cast<double>(squared_distance(first, last)) <= gap_px * gap_px;
+  return static_cast<double>(squared_distance(first, last)) < gap_px * gap_px;
 }
 
 }  // namespace

@@ -25,9 +25,18 @@ void count_row(const float* magnitude, int width, double bins_per_unit,
   }
 }
 
+DenoiseOptions gaussian_of_eq5() {
+  DenoiseOptions options;
+  options.method = DenoiseMethod::kGaussian;
+  options.gaussian.sigma_px = 0;
+  return options;
+}
+
 }  // namespace
 
 Status CannyOptions::check() const { return check_ranges(*this, "canny."); }
+
+Canny::Canny(const CannyOptions& options) : options_(options), blur_(gaussian_of_eq5()) {}
 
 Result<CannyResult> Canny::run(ImageView<const float> in, ParallelRunner& runner) {
   if (in.empty()) {
@@ -35,6 +44,13 @@ Result<CannyResult> Canny::run(ImageView<const float> in, ParallelRunner& runner
   }
   if (Status status = options_.check(); !status) {
     return tl::unexpected(status.error());
+  }
+  if (options_.blur) {
+    blurred_.resize(in.width(), in.height());
+    if (Status status = blur_.run(in, 0, blurred_, runner); !status) {
+      return tl::unexpected(status.error());
+    }
+    in = blurred_;
   }
   prepare(in.width(), in.height());
   for_each_band(runner, [&](Band&, int begin, int end) { add_border(in, begin, end); });

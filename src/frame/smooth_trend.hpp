@@ -10,7 +10,7 @@
 
 namespace thermedge::detail {
 
-// Of the slope, which edges must not bend; and of the trend (docs/tuning.md, "Stripes").
+// Of the slope, which edges must not bend; and of the trend (docs/experiments.md, "Stripes").
 inline constexpr int kSlopeDegree = 3;
 inline constexpr int kTrendDegree = 6;
 

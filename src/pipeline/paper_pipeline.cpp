@@ -77,7 +77,7 @@ Status PaperPipeline::scale(int bits, Detection& found) {
   return scale_to_8bit(counts_, grey_scale_, levels_);
 }
 
-// Section 3: the noise in grey levels is the noise in counts times the gain.
+// Section 4.2, step 1. The noise in grey levels is the noise in counts times the gain.
 Status PaperPipeline::denoise(int bits, ParallelRunner& runner, Detection& found) {
   const Corrections& corrections = found.corrections;
   found.sigma_counts = told_sigma_counts_ > 0 ? told_sigma_counts_ * corrections.counts_per_unit
@@ -119,6 +119,7 @@ void PaperPipeline::keep_intermediates(Intermediates* out) const {
   copy_image(counts_, out->corrected);
   copy_image(levels_.view(), out->levels);
   round_to_levels(denoised_, out->denoised);
+  copy_image(ImageView<const float>(denoised_), out->denoised_values);
   copy_image(edge_map_, out->edge_map);
   out->contours = contours_;
   out->linked = linked_;

@@ -1,4 +1,4 @@
-// Preset paper: the paper to the letter.
+// Preset paper: what the text of the paper says.
 #pragma once
 
 #include "pipeline.hpp"

@@ -212,8 +212,10 @@ Status RobustPipeline::keep_intermediates(int bits, Intermediates* out) {
   out->levels.resize(counts_.width(), counts_.height());
   if (counts_.empty()) {
     out->denoised.resize(0, 0);
+    out->denoised_values.resize(0, 0);
     return {};
   }
+  copy_image(ImageView<const float>(denoised_), out->denoised_values);
   if (bits == 8) {
     copy_pixels(counts_, out->levels.view());
     round_to_levels(denoised_, out->denoised);

@@ -18,7 +18,7 @@
 namespace thermedge::detail {
 
 // What responses are in units of. Measured on simulated scenes of eleven conditions
-// (docs/tuning.md, "Unit").
+// (docs/experiments.md, "Unit").
 struct NoiseScaleTuning {
   // Unit of responses, in units of the noise's level: a smaller one lets noise through to the
   // tests, a larger one loses faint edges before them.

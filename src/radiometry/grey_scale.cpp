@@ -1,16 +1,14 @@
 #include "thermedge/radiometry/grey_scale.hpp"
 
 #include <algorithm>
-#include <limits>
+#include <array>
 #include <string>
-#include <vector>
 
+#include "count_quantiles.hpp"
 #include "grey_scale_simd.hpp"
 
 namespace thermedge {
 namespace {
-
-constexpr std::size_t kCountValues = std::numeric_limits<std::uint16_t>::max() + std::size_t{1};
 
 constexpr double kMiddleLevel = 127;  // of the median (Algorithm 1)
 constexpr double kLargestLevel = 255;
@@ -28,20 +26,7 @@ int median_counts(ImageView<const std::uint16_t> frame) {
   if (frame.empty()) {
     return 0;
   }
-  thread_local std::vector<std::uint32_t> histogram;
-  histogram.assign(kCountValues, 0);
-  for (int y = 0; y < frame.height(); ++y) {
-    const std::uint16_t* row = frame.row(y);
-    for (int x = 0; x < frame.width(); ++x) {
-      ++histogram[row[x]];
-    }
-  }
-  const std::size_t rank = (frame.size() - 1) / 2;
-  std::size_t counts = 0;
-  for (std::size_t below = histogram[0]; below <= rank; below += histogram[counts]) {
-    ++counts;
-  }
-  return static_cast<int>(counts);
+  return detail::count_quantiles(frame, std::array{0.5})[0];
 }
 
 Status scale_to_8bit(ImageView<const std::uint16_t> frame, const GreyScaleOptions& options,

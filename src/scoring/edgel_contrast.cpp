@@ -98,6 +98,10 @@ double difference(ImageView<const std::uint16_t> frame, const Edgels& edgels, st
   return ahead && behind ? *ahead - *behind : std::numeric_limits<double>::quiet_NaN();
 }
 
+// What the blur of the optics takes off a contrast is put back up to this factor: so much is
+// missing behind a blur of 1.1 px. What a slope adds farther out is more.
+constexpr double kMostBlurred = 1.06;
+
 // Standard deviation of a position in whole pixels, found on a slope in noise.
 double position_sigma(double sigma_counts, double slope) {
   constexpr double kOfWholePixels = 1.0 / 12;
@@ -178,6 +182,9 @@ void contrasts_across(ImageView<const std::uint16_t> frame, const Edgels& edgels
   for (std::size_t k = 0; k < per_edgel; ++k) {
     RunOfDoubles step;
     differences(frame, edgels, first, count, tuning.nearest_px + static_cast<double>(k), step);
+    if (k == 0) {
+      out.nearest = step;
+    }
     for (std::size_t i = 0; i < count; ++i) {
       const bool seen = !std::isnan(step[i]);
       out.sums[i] += seen ? step[i] : 0;
@@ -190,15 +197,21 @@ Contrast contrast_across(ImageView<const std::uint16_t> frame, const Edgels& edg
                          const ContrastTuning& tuning) {
   double sum = 0;
   int samples = 0;
+  double beyond_sum = 0;
+  int seen = 0;
   for_each_run(range, [&](std::size_t first, std::size_t count) {
     RunOfContrasts part;
     contrasts_across(frame, edgels, first, count, tuning, part);
     for (std::size_t i = 0; i < count; ++i) {
       sum += part.sums[i];
       samples += part.samples[i];
+      if (part.samples[i] > 0) {
+        beyond_sum += part.mean_beyond_flank(i);
+        ++seen;
+      }
     }
   });
-  return {samples > 0 ? sum / samples : 0, samples};
+  return {samples > 0 ? sum / samples : 0, samples, seen > 0 ? beyond_sum / seen : 0};
 }
 
 void flip_normals(Edgels& edgels, Range range) {
@@ -226,9 +239,11 @@ void take_contrast(ImageView<const std::uint16_t> frame, double sigma_counts, Ed
   if (contrast.counts < 0) {
     flip_normals(edgels, edge.edgels);
     contrast.counts = -contrast.counts;
+    contrast.beyond_flank = -contrast.beyond_flank;
   }
   measure_edgels(frame, sigma_counts, edge.edgels, edgels);
-  edge.contrast_counts = contrast.counts;
+  edge.contrast_counts =
+      std::clamp(contrast.beyond_flank, contrast.counts, kMostBlurred * contrast.counts);
 }
 
 double in_sigmas(double contrast_counts, double sigma_counts) {

@@ -47,11 +47,19 @@ void slopes_beside(ImageView<const std::uint16_t> frame, const Edgels& edgels, s
 struct Contrast {
   double counts = 0;  // mean over the samples
   int samples = 0;
+  double beyond_flank = 0;  // mean without the nearest samples, counts
 };
 
 struct RunOfContrasts {
   RunOfDoubles sums;  // of the differences
   std::array<int, kMostEdgels> samples;
+  RunOfDoubles nearest;  // the difference at nearest_px; NaN where it is outside
+
+  // Mean difference of an edgel that has samples, with and without the nearest one.
+  [[nodiscard]] double mean(std::size_t i) const { return sums[i] / samples[i]; }
+  [[nodiscard]] double mean_beyond_flank(std::size_t i) const {
+    return samples[i] > 1 ? (sums[i] - nearest[i]) / (samples[i] - 1) : mean(i);
+  }
 };
 
 // Of `count` edgels, at most kMostEdgels, from nearest_px to farthest_px on both sides.
@@ -70,7 +78,8 @@ void measure_edgels(ImageView<const std::uint16_t> frame, double sigma_counts, R
                     Edgels& edgels);
 
 // Makes the contrast of an edge whose normals are set positive by turning them round where the
-// warmer side is the other one; fills magnitudes, position sigmas and contrast_counts.
+// warmer side is the other one; fills magnitudes, position sigmas and contrast_counts, which is
+// corrected for the blur of the optics (contrast.hpp).
 void take_contrast(ImageView<const std::uint16_t> frame, double sigma_counts, Edgels& edgels,
                    Edge& edge, Contrast& contrast);
 

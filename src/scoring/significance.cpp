@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <iterator>
 #include <limits>
 #include <numbers>
@@ -221,6 +222,9 @@ detail::Contrast SignificanceTest::Impl::contrast_of(ImageView<const std::uint16
                                                      const Edgels& edgels, Range range,
                                                      std::vector<double>& of_edgels) const {
   of_edgels.clear();
+  // In whole steps, so that it makes no difference from which end the edge is walked.
+  constexpr double kSteps = 1 << 16;
+  std::int64_t blurred_steps = 0;
   detail::Contrast found;
   detail::for_each_run(range, [&](std::size_t first, std::size_t count) {
     detail::RunOfContrasts part;
@@ -228,11 +232,14 @@ detail::Contrast SignificanceTest::Impl::contrast_of(ImageView<const std::uint16
     for (std::size_t i = 0; i < count; ++i) {
       found.samples += part.samples[i];
       if (part.samples[i] > 0) {
-        of_edgels.push_back(part.sums[i] / part.samples[i]);
+        of_edgels.push_back(part.mean(i));
+        blurred_steps += std::llround(kSteps * (part.mean_beyond_flank(i) - part.mean(i)));
       }
     }
   });
+  const auto edgels_seen = static_cast<double>(std::max<std::size_t>(of_edgels.size(), 1));
   found.counts = trimmed_mean(of_edgels, tuning.contrast_trim);
+  found.beyond_flank = found.counts + static_cast<double>(blurred_steps) / kSteps / edgels_seen;
   return found;
 }
 

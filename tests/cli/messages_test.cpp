@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "support/program.hpp"
+#include "thermedge/io/source.hpp"
 
 namespace thermedge::test {
 namespace {
@@ -62,12 +63,10 @@ TEST_F(Messages, MuchClippingIsToldOnceARunWithARemedy) {
     std::string arguments;
     std::string remedy;
   };
-  for (const Case& given :
-       {Case{"detect two.raw --preset paper",
-             "--set grey_scale.gain=0.1 clips 0.0 %, and --preset robust or "
-             "fast scale nothing"},
-        {"scale two.raw -o out", "--gain 0.1 clips 0.0 %"},
-        {"scale two.raw -o out --stable --gain 0.5", "--gain 0.1 clips 0.0 %"}}) {
+  for (const Case& given : {Case{"detect two.raw --preset paper",
+                                 "--set grey_scale.gain=0.1 clips 0.0 %, and --preset robust or "
+                                 "fast scale nothing"},
+                            {"scale two.raw -o out", "--gain 0.1 clips 0.0 %"}}) {
     const auto result = run(given.arguments + " --raw-size 40x40");
     EXPECT_EQ(result.exit_code, 0);
     EXPECT_EQ(without_summary(result.err),
@@ -75,6 +74,10 @@ TEST_F(Messages, MuchClippingIsToldOnceARunWithARemedy) {
     EXPECT_EQ(run(given.arguments + " --raw-size 40x40 --quiet").err, "");
   }
   EXPECT_EQ(without_summary(run("detect two.raw --raw-size 40x40").err), "");
+  EXPECT_EQ(without_summary(run("scale two.raw -o out --stable --raw-size 40x40").err), "");
+  EXPECT_EQ(without_summary(run("scale two.raw -o out --stable --gain 0.5 --raw-size 40x40").err),
+            "thermedge: warning: frames with more than 5 % of their pixels clipped: 2 of 2; the "
+            "most, 25.0 %, in two.raw[0]; a smaller --gain, or none, clips less\n");
   EXPECT_EQ(run("detect little.raw --preset paper --raw-size 40x40").err, "");
   EXPECT_EQ(run("scale little.raw -o little.png --raw-size 40x40").err, "");
   const auto json = run("scale two.raw -o out --raw-size 40x40 --json-log").err;
@@ -100,6 +103,19 @@ TEST_F(Messages, BadFramesAreBadInput) {
   }
   expect_one_line_each(cases, directory_);
   EXPECT_FALSE(fs::exists(directory_ / "x")) << "nothing is made where there is nothing to write";
+}
+
+// 8-bit frames are grey levels already, whatever the gain.
+TEST_F(Messages, EightBitFramesAreNotScaled) {
+  for (const std::string options : {"", " --gain 0.1", " --stable"}) {
+    const auto result = run("scale frame.pgm -o x.png" + options);
+    EXPECT_EQ(result.exit_code, 0);
+    EXPECT_NE(result.err.find("frame.pgm: 8-bit frames are grey levels already"), std::string::npos)
+        << result.err;
+    const auto picture = io::read_picture(path("x.png"));
+    ASSERT_TRUE(picture);
+    EXPECT_EQ(picture->counts(3, 2), 'x');
+  }
 }
 
 TEST_F(Messages, OptionsOfTheDetectorAreChecked) {
@@ -143,7 +159,7 @@ TEST_F(Messages, OptionsOfEachCommandAreChecked) {
        {"scale frame.pgm -o x.png --gain -1", 2, "--gain"},
        {"scale frame.pgm -o x.png --dead-band 3", 2, "--stable"},
        {"scale frame.pgm -o x.png --stable --slew 256", 2, "--slew"},
-       {"scale frame.pgm -o missing/x.png", 1, "missing/x.png"},
+       {"scale frame.raw --raw-size 8x6 -o missing/x.png", 1, "missing/x.png"},
        {"denoise frame.pgm", 2, "-o is required"},
        {"denoise -o x.png", 2, "INPUT is required"},
        {"denoise frame.pgm -o x.png --method strong", 2, "--method"},
@@ -153,7 +169,17 @@ TEST_F(Messages, OptionsOfEachCommandAreChecked) {
        {"stages frame.pgm -o x --format jpg", 2, "--format"},
        {"compare frame.pgm -o x.png --denoise strong", 2, "--denoise"},
        {"compare frame.pgm -o x.png --log-kernel 62", 2, "--log-kernel"},
+       {"compare frame.pgm -o x.png --canny-high 3sigmas", 2, "--canny-high 3sigmas"},
+       {"compare frame.pgm -o x.png --canny-low 3", 2, "needs the high one"},
+       {"compare frame.pgm -o x.png --canny-low 3 --canny-high 2", 2, "above the high one"},
+       {"detect frame.pgm -o x --explain", 2, "--write overlay"},
        {"compare frame.pgm -o x.png --write log,hough", 2, "--write hough"},
+       {"radiation", 2, "--output is required"},
+       {"radiation -o x", 2, "-o x: should be a file"},
+       {"radiation -o x.png --kelvin 20", 2, "20 K"},
+       {"radiation -o x.png --band-from 20", 2, "20 to 13 um"},
+       {"snr frame.pgm -o x", 2, "-o x: should be a file"},
+       {"snr frame.pgm -o x.png --degc-per-count 0", 2, "--degc-per-count"},
        {"bench frame.pgm --frames 0", 2, "--frames"},
        {"bench frame.pgm --seconds forever", 2, "--seconds"},
        {"bench frame.pgm -o x.txt", 2, "redirect it to a file"},

@@ -199,17 +199,19 @@ bool closes(int dx, int dy, double closed_gap_px) {
 }
 
 TEST(ContourTracer, IsClosedUpToTheSquaredDistanceOfThePublicCode) {
-  const double by_default = ContourOptions{}.closed_gap_px;
-  EXPECT_TRUE(closes(4, 4, by_default));   // 32
-  EXPECT_TRUE(closes(5, 2, by_default));   // 29
-  EXPECT_FALSE(closes(5, 3, by_default));  // 34
-  EXPECT_FALSE(closes(6, 0, by_default));  // 36
+  EXPECT_TRUE(closes(4, 4, 5.66));   // 32
+  EXPECT_TRUE(closes(5, 2, 5.66));   // 29
+  EXPECT_FALSE(closes(5, 3, 5.66));  // 34
+  EXPECT_FALSE(closes(6, 0, 5.66));  // 36
 }
 
-TEST(ContourTracer, IsClosedUpToTheDistanceOfThePaper) {
-  EXPECT_TRUE(closes(3, 0, 3));
-  EXPECT_FALSE(closes(3, 1, 3));
-  EXPECT_TRUE(closes(2, 2, 3));
+// T of 2 to 3 px, and a distance that is smaller.
+TEST(ContourTracer, IsClosedByDefaultBelowTheDistanceOfThePaper) {
+  const double by_default = ContourOptions{}.closed_gap_px;
+  EXPECT_TRUE(closes(2, 2, by_default));
+  EXPECT_FALSE(closes(3, 0, by_default));
+  EXPECT_FALSE(closes(3, 1, by_default));
+  EXPECT_TRUE(closes(3, 0, 3.01));
   EXPECT_FALSE(closes(2, 0, 1.9));
 }
 

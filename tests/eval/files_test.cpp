@@ -289,6 +289,49 @@ TEST(EvaluateSets, AreFoundByName) {
             directory / "truth/e: no truth there (.npz, .mat, .png, _*.png, .json)");
 }
 
+TEST(EvaluateSets, TrueMapsOfTwoValuesHaveEdgesWhereTheyAreNotZero) {
+  const TemporaryDirectory directory;
+  const auto edges_of = [&](std::vector<std::uint8_t> values) {
+    Image<std::uint8_t> map(static_cast<int>(values.size()), 1);
+    std::copy(values.begin(), values.end(), map.row(0));
+    EXPECT_TRUE(io::write_picture(directory / "a.png", ImageView<const std::uint8_t>(map)));
+    const auto set = GroundTruthSet::open(directory / "a.png", {});
+    EXPECT_TRUE(set);
+    const auto truth = set->read("a", 0);
+    EXPECT_TRUE(truth);
+    const std::uint8_t* row = truth->maps.annotators[0].row(0);
+    return std::vector<int>(row, row + values.size());
+  };
+  EXPECT_EQ(edges_of({0, 1, 0}), (std::vector<int>{0, 1, 0}));
+  EXPECT_EQ(edges_of({100, 0, 0}), (std::vector<int>{1, 0, 0}));
+  EXPECT_EQ(edges_of({255, 0, 255}), (std::vector<int>{1, 0, 1}));
+  EXPECT_EQ(edges_of({0, 0}), (std::vector<int>{0, 0}));
+  EXPECT_EQ(edges_of({1, 1}), (std::vector<int>{1, 1}));
+  EXPECT_EQ(edges_of({0, 127, 128}), (std::vector<int>{0, 0, 1}));
+  EXPECT_EQ(edges_of({127, 127}), (std::vector<int>{0, 0}));
+  EXPECT_EQ(edges_of({254, 255}), (std::vector<int>{1, 1}));
+}
+
+// Neighbouring pixels of a diagonal have nothing painted beside them.
+TEST(EvaluateSets, CurvesOfAMaskArePaintedAsTheMask) {
+  CurveFrame frame;
+  frame.width = 8;
+  frame.height = 6;
+  frame.curves.push_back({.points = {{1.4, 1.4}, {1.6, 2.4}, {2.6, 2.6}, {6, 2.6}}});
+  Image<std::uint8_t> map;
+  draw_curves(frame, 0, map);
+  std::vector<std::pair<int, int>> painted;
+  for (int y = 0; y < 6; ++y) {
+    for (int x = 0; x < 8; ++x) {
+      if (map(x, y) != 0) {
+        painted.emplace_back(x, y);
+      }
+    }
+  }
+  EXPECT_EQ(painted,
+            (std::vector<std::pair<int, int>>{{1, 1}, {2, 2}, {3, 3}, {4, 3}, {5, 3}, {6, 3}}));
+}
+
 TEST(EvaluateSets, AreInNaturalOrder) {
   const TemporaryDirectory directory;
   for (const std::string name : {"f10.png", "f9.png", "f1.png", ".f0.png"}) {

@@ -95,9 +95,10 @@ TEST(Scores, TakeTheFirstOfEquallyGoodThresholds) {
 TEST(Scores, OfNothing) {
   const std::vector<std::vector<MatchCounts>> counts{{MatchCounts{}, MatchCounts{}}};
   const Scores scores = score(counts, std::vector<int>{10, 20});
-  EXPECT_EQ(scores.f, 0);
-  EXPECT_EQ(scores.ap, 0);
-  EXPECT_EQ(scores.ois, 0);
+  EXPECT_EQ(scores.f, 1);
+  EXPECT_EQ(scores.precision, 1);
+  EXPECT_EQ(scores.recall, 1);
+  EXPECT_EQ(scores.ois, 1);
 }
 
 TEST(Counts, RespectThresholdsAnnotatorsAndAccepted) {
@@ -139,6 +140,22 @@ TEST(Counts, OfEmptyMapsAreZero) {
     EXPECT_EQ((*counts)[0], MatchCounts{});
     EXPECT_EQ((*counts)[1], MatchCounts{});
   }
+}
+
+// Lines of any width, at a single threshold and at the one of a sweep where the map is the truth.
+TEST(Counts, OfAMapAgainstItselfAreExact) {
+  const Map strength = map_of({".99999.", ".99999.", "22.9...", "..9...."});
+  const TruthMaps truth = truth_of({".#####.", ".#####.", "...#...", "..#...."});
+  for (const bool thin : {true, false}) {
+    const auto counts =
+        count_matches(strength.view(), truth, std::vector<int>{200}, {0.0075, thin});
+    ASSERT_TRUE(counts);
+    EXPECT_EQ((*counts)[0], (MatchCounts{12, 12, 12, 12}));
+  }
+  const auto swept = count_matches(strength.view(), truth, std::vector<int>{10, 200}, {});
+  ASSERT_TRUE(swept);
+  EXPECT_LT((*swept)[0].recall(), 1);
+  EXPECT_EQ((*swept)[1].f_measure(), 1);
 }
 
 TEST(Counts, RefuseOtherSizesAndNoTruth) {

@@ -11,6 +11,8 @@
 
 #include "drawn_text.hpp"
 #include "raster.hpp"
+#include "support/images.hpp"
+#include "thermedge/detector.hpp"
 #include "thermedge/sim/scene.hpp"
 
 namespace thermedge::figures {
@@ -101,12 +103,13 @@ TEST_F(ComparedDesk, TheNumbersAreThoseOfTheMaps) {
 TEST_F(ComparedDesk, SaysWhatRanAndOnWhat) {
   struct Case {
     Preset preset;
-    DenoiseMethod classical;
+    std::optional<DenoiseMethod> classical;
     const char* name;
     const char* view;
   };
   for (const Case& run :
-       {Case{Preset::kRobust, DenoiseMethod::kNone, "thermedge (robust)", "view, not denoised"},
+       {Case{Preset::kRobust, {}, "thermedge (robust)", ""},
+        {Preset::kRobust, DenoiseMethod::kNone, "thermedge (robust)", "view, not denoised"},
         {Preset::kPaper, DenoiseMethod::kGaussian, "thermedge (paper)", "view after Gaussian"},
         {Preset::kFast, DenoiseMethod::kNlm, "thermedge (fast)", "view after NL-means"}}) {
     ComparisonOptions options = options_of(run.preset);
@@ -114,11 +117,69 @@ TEST_F(ComparedDesk, SaysWhatRanAndOnWhat) {
     const Comparison made = compared(options);
     EXPECT_EQ(made.maps.back().display, run.name);
     EXPECT_TRUE(is_written(run.name));
-    EXPECT_TRUE(
-        is_written("desk.png; the classical detectors run on its 8-bit " + std::string(run.view)))
+    EXPECT_TRUE(is_written(
+        run.classical
+            ? "desk.png; the classical detectors run on its 8-bit " + std::string(run.view)
+            : "desk.png; all detectors run on the same picture, denoised by Gaussian"))
         << run.view;
     expect_text_in_place(drawn_text(), {0, 0, made.sheet.width(), made.sheet.height()});
   }
+}
+
+// What each preset's own steps make of the frame is what all the others get.
+TEST_F(ComparedDesk, AllDetectorsRunOnTheSameDenoisedPicture) {
+  for (const Preset preset : {Preset::kRobust, Preset::kPaper}) {
+    const ComparisonOptions options = options_of(preset);
+    const Comparison made = compared(options);
+    auto scene = sim::render({.camera = {.width = kWidth, .height = kHeight}}, 0);
+    ASSERT_TRUE(scene);
+    auto detector = Detector::create(options.detector);
+    ASSERT_TRUE(detector);
+    Detection detection;
+    Intermediates steps;
+    ASSERT_TRUE(detector->detect(Frame(ImageView<const std::uint16_t>(scene->counts), 16),
+                                 detection, {&steps, {}}));
+    ClassicalDetector classical;
+    const auto runner = make_runner(1);
+    for (std::size_t i = 0; i < kClassicalMethods.size(); ++i) {
+      Image<std::uint8_t> edges(kWidth, kHeight);
+      ASSERT_TRUE(
+          classical.run(steps.denoised_values, kClassicalMethods[i].method, edges, *runner));
+      EXPECT_TRUE(test::same_pixels<std::uint8_t>(edges.view(), made.maps[i].edges.view()))
+          << made.maps[i].name;
+    }
+  }
+}
+
+// Thresholds in counts and in units of the noise are the same gradients.
+TEST_F(ComparedDesk, CannyHasTheThresholdsThatAreAskedFor) {
+  ComparisonOptions options = options_of(Preset::kRobust);
+  options.canny_thresholds = {{3, GradientUnit::kCounts}, {1, GradientUnit::kCounts}};
+  const Comparison low = compared(options);
+  options.canny_thresholds.high.value = 30;
+  const Comparison high = compared(options);
+  EXPECT_TRUE(
+      is_written("Canny: high threshold 30 counts a pixel, low threshold 1 counts a pixel"));
+  const auto canny = [](const Comparison& made) { return made.maps[4].edge_pixels; };
+  EXPECT_GT(canny(low), canny(high));
+  EXPECT_EQ(high.maps[3].edge_pixels, low.maps[3].edge_pixels);
+
+  ASSERT_GT(canny(high), 0U);
+  options.canny_thresholds = {{1e5, GradientUnit::kCounts}, {}};
+  EXPECT_EQ(canny(compared(options)), 0U);
+
+  auto scene = sim::render({.camera = {.width = kWidth, .height = kHeight}}, 0);
+  auto detector = Detector::create(options.detector);
+  Detection detection;
+  ASSERT_TRUE(detector->detect(ImageView<const std::uint16_t>(scene->counts), detection));
+  ASSERT_GT(detection.sigma_counts, 0);
+  options.canny_thresholds = {{2, GradientUnit::kSigma}, {1, GradientUnit::kSigma}};
+  const Comparison by_sigma = compared(options);
+  options.canny_thresholds = {{2 * detection.sigma_counts, GradientUnit::kCounts},
+                              {detection.sigma_counts, GradientUnit::kCounts}};
+  const Comparison by_counts = compared(options);
+  EXPECT_TRUE(test::same_pixels<std::uint8_t>(by_sigma.maps[4].edges.view(),
+                                              by_counts.maps[4].edges.view()));
 }
 
 TEST_F(ComparedDesk, AMapWithoutAnEdgeHasNoFragments) {

@@ -340,6 +340,7 @@ TEST(ComparisonSheet, HoldsTheMapsOfEachDetector) {
   options.detector = DetectorOptions(Preset::kPaper);
   options.detector.denoise.method = DenoiseMethod::kGaussian;
   options.detector.paper()->contours.min_component_px = 10;
+  options.classical_denoiser = DenoiseMethod::kNone;
   auto sheet = ComparisonSheet::create(options);
   ASSERT_TRUE(sheet);
   const Image<std::uint16_t> frame = small_desk();

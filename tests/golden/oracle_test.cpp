@@ -17,6 +17,7 @@ namespace {
 ContourSet trace(const OracleMap& map) {
   ContourOptions options;
   options.min_component_px = 0;
+  options.closed_gap_px = 5.66;  // as the public code has it
   options.gap_px = map.gap_px;
   ContourSet contours;
   EXPECT_TRUE(ContourTracer(options).run(map.edges, contours));

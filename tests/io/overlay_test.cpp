@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
 #include <utility>
@@ -124,18 +125,44 @@ TEST(Overlay, ClosedEdgesAreDrawnBackToTheirBeginning) {
   }
 }
 
+TEST(Overlay, DroppedEdgesAreDrawnWhereTheyAreAskedForOnly) {
+  Detection detection = detection_of(12, 12);
+  test::add_edge(detection.edges, {{1, 5}, {9, 5}});
+  test::add_edge(detection.edges, {{5, 1}, {5, 9}}, false, false).status =
+      EdgeStatus::kInsignificant;
+  test::add_edge(detection.edges, {{3, 7}, {3, 9}}, false, false).status = EdgeStatus::kWeak;
+  Image<Rgb> kept;
+  draw_overlay(detection, {}, kept);
+  Image<Rgb> explained;
+  draw_overlay(detection, {}, explained, OverlayContent::kExplained);
+  EXPECT_EQ(kept(11, 5), kept(0, 0));
+  EXPECT_EQ(kept(7, 17), kept(0, 0));
+  EXPECT_EQ(explained(11, 5), status_colour(EdgeStatus::kInsignificant));
+  EXPECT_EQ(explained(7, 17), status_colour(EdgeStatus::kWeak));
+  EXPECT_EQ(explained(11, 11), status_colour(EdgeStatus::kKept));  // on top
+}
+
+TEST(Overlay, StatusesHaveColoursOfTheirOwn) {
+  const std::array all = {EdgeStatus::kKept, EdgeStatus::kBeyondBudget, EdgeStatus::kWeak,
+                          EdgeStatus::kInsignificant, EdgeStatus::kLowContrast};
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      const Rgb a = status_colour(all[i]);
+      const Rgb b = status_colour(all[j]);
+      EXPECT_GT(std::abs(a.r - b.r) + std::abs(a.g - b.g) + std::abs(a.b - b.b), 100);
+    }
+  }
+}
+
 TEST(Overlay, TheBetterEdgeLiesOnTop) {
   Detection detection = detection_of(12, 12);
   test::add_edge(detection.edges, {{1, 5}, {9, 5}});
   test::add_edge(detection.edges, {{5, 1}, {5, 9}});
-  test::add_edge(detection.edges, {{3, 1}, {3, 9}}, false, false);
   Image<Rgb> overlay;
   draw_overlay(detection, {}, overlay);
   // Pixel (5, 5) is enlarged to (10..11, 10..11); its centre is rounded away from zero.
   EXPECT_EQ(overlay(11, 11), rank_colour(0));
   EXPECT_EQ(overlay(11, 15), rank_colour(1));
-  EXPECT_EQ(overlay(7, 11), rank_colour(0));
-  EXPECT_EQ(overlay(7, 15), (Rgb{70, 120, 150}));
 }
 
 TEST(Overlay, CornersAreSquaresAndJunctionsRings) {

@@ -28,7 +28,8 @@ Image<std::uint16_t> scene(double middle, unsigned seed, double range = 400) {
 
 class Sequence {
  public:
-  explicit Sequence(const StableGreyScaleOptions& options = {}) : view_(options) {}
+  explicit Sequence(const StableGreyScaleOptions& options) : view_(options) {}
+  explicit Sequence(double gain = 0.2) : Sequence(StableGreyScaleOptions{.gain = gain}) {}
   GreyScaleState show(const Image<std::uint16_t>& frame) {
     levels_.resize(frame.width(), frame.height());
     const auto state = view_.run(frame, levels_);
@@ -41,19 +42,22 @@ class Sequence {
  private:
   // The levels are what gain and offset say, and the shares what is outside.
   void expect_levels(const Image<std::uint16_t>& frame, const GreyScaleState& state) const {
-    std::size_t low = 0, high = 0;
+    // A level that is 0 or 255, or a sum that is a half, but for rounding may fall to either side.
+    constexpr double kRounding = 1e-9;
+    std::size_t low = 0, high = 0, undecided = 0;
     for (int y = 0; y < frame.height(); ++y) {
       for (int x = 0; x < frame.width(); ++x) {
         const double level = frame(x, y) * state.gain + state.offset;
-        low += level < 0 ? 1 : 0;
-        high += level > 255 ? 1 : 0;
-        // A sum that is a half but for rounding may fall to either side.
-        ASSERT_NEAR(levels_(x, y), std::clamp(level, 0.0, 255.0), 0.5 + 1e-9);
+        low += level < -kRounding ? 1 : 0;
+        high += level > 255 + kRounding ? 1 : 0;
+        undecided += std::abs(level) <= kRounding || std::abs(level - 255) <= kRounding ? 1 : 0;
+        ASSERT_NEAR(levels_(x, y), std::clamp(level, 0.0, 255.0), 0.5 + kRounding);
       }
     }
     const auto pixels = static_cast<double>(frame.size());
-    EXPECT_NEAR(state.clipped_low_share, static_cast<double>(low) / pixels, 2 / pixels);
-    EXPECT_NEAR(state.clipped_high_share, static_cast<double>(high) / pixels, 2 / pixels);
+    const double tolerance = (static_cast<double>(undecided) + 0.5) / pixels;
+    EXPECT_NEAR(state.clipped_low_share, static_cast<double>(low) / pixels, tolerance);
+    EXPECT_NEAR(state.clipped_high_share, static_cast<double>(high) / pixels, tolerance);
   }
 
   StableGreyScale view_;
@@ -144,15 +148,94 @@ TEST(StableGreyScale, DoesNotJumpWhereThatWouldNotHelp) {
 }
 
 TEST(StableGreyScale, ChoosesTheGainFromTheNoise) {
-  StableGreyScaleOptions options;
-  options.gain = 0;
-  Sequence sequence(options);
+  Sequence sequence(0);
   const double gain = sequence.show(scene(3000, 1)).gain;
   EXPECT_NEAR(gain, 2 / 6.0, 0.04);
   EXPECT_EQ(sequence.show(scene(3000, 2)).gain, gain);
   Image<std::uint16_t> flat(32, 32);
   fill_pixels(flat.view(), std::uint16_t{100});
-  EXPECT_EQ(Sequence(options).show(flat).gain, 1);
+  EXPECT_EQ(Sequence(0).show(flat).gain, 1);
+}
+
+TEST(StableGreyScale, ChoosesTheGainFromTheRange) {
+  Sequence sequence(0);
+  const GreyScaleState state = sequence.show(scene(20000, 1, 5000));
+  EXPECT_NEAR(state.gain * 5000, 0.8 * 255, 5);
+  EXPECT_EQ(state.clipped_low_share + state.clipped_high_share, 0);
+  // As much room below the range as above it.
+  EXPECT_NEAR(20000 * state.gain + state.offset, 127, 1);
+}
+
+// A scene in which a disc of `counts` covers a growing share of the frame.
+Image<std::uint16_t> approach(double radius_px, double counts, unsigned seed) {
+  Image<std::uint16_t> frame = scene(2700, seed);
+  for (int y = 0; y < 48; ++y) {
+    for (int x = 0; x < 64; ++x) {
+      if (std::hypot(x - 31.5, y - 23.5) < radius_px) {
+        frame(x, y) = static_cast<std::uint16_t>(frame(x, y) + counts);
+      }
+    }
+  }
+  return frame;
+}
+
+struct Clipping {
+  int longest = 0;  // frames in a row with more than 5 % clipped
+  int cuts = 0;
+  double last_gain = 0;
+};
+
+Clipping clipping_of_approach(Sequence& sequence, double px_per_frame, double counts) {
+  Clipping clipping;
+  int now = 0;
+  for (unsigned i = 0; i < 60; ++i) {
+    const GreyScaleState state = sequence.show(approach(px_per_frame * i, counts, i));
+    now = state.clipped_low_share + state.clipped_high_share > 0.05 ? now + 1 : 0;
+    clipping.longest = std::max(clipping.longest, now);
+    clipping.cuts += state.event == GreyScaleEvent::kSceneCut ? 1 : 0;
+    clipping.last_gain = state.gain;
+  }
+  return clipping;
+}
+
+TEST(StableGreyScale, FollowsAnApproachToAHotThing) {
+  for (const double px_per_frame : {0.2, 0.5, 1.0, 3.0, 10.0}) {
+    for (const double counts : {500.0, 1000.0, 4000.0, 20000.0, 60000.0}) {
+      Sequence sequence(0);
+      const Clipping clipping = clipping_of_approach(sequence, px_per_frame, counts);
+      EXPECT_LE(clipping.longest, 2) << px_per_frame << " px a frame, " << counts << " counts";
+    }
+  }
+}
+
+TEST(StableGreyScale, FollowsASlowApproachWithoutAJump) {
+  Sequence sequence(0);
+  const Clipping clipping = clipping_of_approach(sequence, 0.2, 1000);
+  EXPECT_EQ(clipping.longest, 0);
+  EXPECT_EQ(clipping.cuts, 0);
+}
+
+TEST(StableGreyScale, MovesAGivenGainOnly) {
+  // The hot disc and the rest fit into 255 levels side by side, but not around the median.
+  Sequence sequence(0.2);
+  const Clipping clipping = clipping_of_approach(sequence, 0.5, 700);
+  EXPECT_LE(clipping.longest, 2);
+  EXPECT_EQ(clipping.last_gain, 0.2);
+}
+
+TEST(StableGreyScale, GivesTheGainBack) {
+  Sequence sequence(0);
+  const double gain = sequence.show(scene(2700, 1)).gain;
+  const double lower = clipping_of_approach(sequence, 1, 4000).last_gain;
+  EXPECT_LT(lower, gain / 3);
+  double before = lower;
+  for (unsigned i = 0; i < 300; ++i) {
+    const GreyScaleState state = sequence.show(scene(2700, i));
+    EXPECT_LE(state.gain,
+              std::max(1.0201 * before, state.event == GreyScaleEvent::kSceneCut ? 1.0 : 0.0));
+    before = state.gain;
+  }
+  EXPECT_GT(before, 0.6 * gain);
 }
 
 TEST(StableGreyScale, TakesExtremeFrames) {

@@ -18,10 +18,18 @@ void draw_view(ImageView<const std::uint16_t> counts, ImageView<std::uint8_t> vi
 // orange to purple, the darkest part left out.
 [[nodiscard]] Rgb rank_colour(double share);
 
-// The frame (`counts`; black, where it is empty) enlarged twice, darkened, with the kept
-// edges as thin lines coloured by rank, their corners as small squares and junctions as rings.
-// Edges beyond the budgets are drawn in a muted blue, without corners.
+enum class OverlayContent : std::uint8_t {
+  kKept,       // the kept edges, coloured by rank
+  kExplained,  // all edges, coloured by their status
+};
+
+// Colour of edges in an explained overlay.
+[[nodiscard]] Rgb status_colour(EdgeStatus status);
+
+// The frame (`counts`; black, where it is empty) enlarged twice, darkened, with edges as thin
+// lines: the kept ones with their corners as small squares, and junctions as rings. Dropped edges
+// are drawn only where they are asked for, without corners and below the kept ones.
 void draw_overlay(const Detection& detection, ImageView<const std::uint16_t> counts,
-                  Image<Rgb>& overlay);
+                  Image<Rgb>& overlay, OverlayContent content = OverlayContent::kKept);
 
 }  // namespace thermedge::io

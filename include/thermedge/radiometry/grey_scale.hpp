@@ -61,10 +61,10 @@ struct CountRange {
 };
 [[nodiscard]] CountRange count_range(ImageView<const std::uint16_t> frame);
 
-// Range of a frame in degC (paper eq. 3): (max - min) * degc_per_count.
+// Range of a frame in degC (paper eqs. 3 and 4): (max - min) * degc_per_count.
 [[nodiscard]] double range_degc(CountRange range, double degc_per_count = kDegcPerCount);
 
-// Degrees per grey level when the range is spread over 2^bits levels (paper eq. 4):
+// Degrees per grey level when the range is spread over 2^bits levels (paper section 2.3.2):
 // range_degc / (2^bits - 1).
 [[nodiscard]] double degc_per_level(double range_degc, int bits = 8);
 

@@ -11,6 +11,7 @@
 #include "thermedge/option_list.hpp"
 #include "thermedge/parallel_runner.hpp"
 #include "thermedge/result.hpp"
+#include "thermedge/stages/denoiser.hpp"
 
 namespace thermedge {
 
@@ -22,6 +23,7 @@ struct CannyOptions {
   // magnitude (64-bin histogram up to its maximum, upper bound of the bin), 0..1.
   double non_edge_share = 0.7;
   double low_over_high = 0.4;  // low threshold as a share of the high one, 0..1
+  bool blur = false;           // the Gaussian of eq. 5 before the gradients (Algorithm 2, line 3)
 
   // Fails with one line that names the option: out of its range, or at odds with another one.
   [[nodiscard]] Status check() const;
@@ -34,6 +36,7 @@ void visit_options(O& o, V&& v) {
   v("non_edge_share", o.non_edge_share, Bounds{0, 1},
     "automatic: share of pixels below the high one");
   v("low_over_high", o.low_over_high, Bounds{0, 1}, "low threshold as a share of the high one");
+  v("blur", o.blur, Bounds{0, 1}, "blurs the denoised frame by the 5x5 Gaussian of eq. 5");
 }
 
 // Gradients and edge pixels of one frame; the views live in the Canny object that made them, until
@@ -47,24 +50,26 @@ struct CannyResult {
   double high = 0;
 };
 
-// Sobel gradients (eq. 6, borders replicated), magnitude (eq. 7), direction (eq. 8) rounded to
-// 0/45/90/135 degrees, non-maximum suppression along it, hysteresis with 8-connectivity. A pixel
-// survives suppression when its magnitude is > the neighbour before it and >= the one after it, in
-// reading order, so that a plateau two pixels wide leaves one. Edges are above the thresholds, not
-// at them, so a constant frame has none. Border pixels are never edges. The result is bit-identical
-// for every ParallelRunner and SIMD target. One object per thread; allocates on the first frame of
-// a size only. Cost on one thread at 382x288: about 0.2 ms, 0.6 ms where noise makes every fourth
-// pixel an edge.
+// The Gaussian of eq. 5 where options.blur asks for it, Sobel gradients (eq. 6, borders
+// replicated), magnitude (eq. 7), direction (eq. 8) rounded to 0/45/90/135 degrees, non-maximum
+// suppression along it, hysteresis with 8-connectivity. A pixel survives suppression when its
+// magnitude is > the neighbour before it and >= the one after it, in reading order, so that a
+// plateau two pixels wide leaves one. Edges are above the thresholds, not at them, so a constant
+// frame has none. Border pixels are never edges. The result is bit-identical for every
+// ParallelRunner and SIMD target. One object per thread; allocates on the first frame of a size
+// only. Cost on one thread at 382x288: about 0.2 ms, 0.6 ms where noise makes every fourth pixel an
+// edge.
 class Canny {
  public:
-  explicit Canny(const CannyOptions& options) : options_(options) {}
+  explicit Canny(const CannyOptions& options);
 
   // Errors: empty frame, option out of range, a pixel that is NaN, infinite or beyond 1e18.
   [[nodiscard]] Result<CannyResult> run(ImageView<const float> in, ParallelRunner& runner);
 
   // Memory held, bytes.
   [[nodiscard]] std::size_t memory_bytes() const {
-    return detail::memory_of(bands_, bordered_, gx_, gy_, magnitude_, edges_, group_);
+    return detail::memory_of(blur_, blurred_, bands_, bordered_, gx_, gy_, magnitude_, edges_,
+                             group_);
   }
 
  private:
@@ -87,6 +92,8 @@ class Canny {
   void suppress(int y_begin, int y_end, Thresholds thresholds);
 
   CannyOptions options_;
+  Denoiser blur_;
+  Image<float> blurred_;
   std::vector<Band> bands_;
   Image<float> bordered_, gx_, gy_, magnitude_;
   Image<std::uint8_t> edges_;

@@ -37,8 +37,8 @@ struct ContourOptions {
   int min_component_px = 50;  // 8-connected components with fewer pixels are removed first; 0: off
   int gap_px = 1;             // reach of a walking step, 1..8 px (1: neighbours; 2 jumps one pixel)
   int min_length_px = 0;      // shortest curve kept, px; 0: more than (width + height) / 25 pixels
-  double closed_gap_px = 5.66;  // a curve is closed where its ends are this near, px (the text says
-                                // 2-3; the public code that the paper used: squared distance <= 32)
+  double closed_gap_px = 3;   // T of eq. 13, 2-3 px in the text: a curve is closed where its ends
+                              // are nearer; 5.66 is the rule of the public code of He & Yung
 
   // Fails with one line that names the option: out of its range, or at odds with another one.
   [[nodiscard]] Status check() const;
@@ -51,7 +51,7 @@ void visit_options(O& o, V&& v) {
   v("gap_px", o.gap_px, Bounds{1, 8}, "reach of a walking step, px");
   v("min_length_px", o.min_length_px, Bounds{0, 1e9},
     "shortest curve, px (0: more than (width + height) / 25)");
-  v("closed_gap_px", o.closed_gap_px, Bounds{0, 100}, "ends this near close a curve, px");
+  v("closed_gap_px", o.closed_gap_px, Bounds{0, 100}, "ends nearer than this close a curve, px");
 }
 
 // Walks the edge map column by column: seed = next set pixel; from there, within the window of

@@ -35,7 +35,7 @@ void visit_options(O& o, V&& v) {
 }
 
 // Chosen on drawn squares, bends, ellipses and rounded rectangles at all angles and on the squares
-// of a calibration board (docs/tuning.md).
+// of a calibration board (docs/experiments.md).
 struct CornerTuning {
   double arm_sigmas = 4.5;  // length of an arm in units of sigma_px. A longer one sees neighbouring
                             // shapes, a shorter one the steps between pixels.

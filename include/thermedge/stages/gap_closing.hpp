@@ -35,7 +35,7 @@ void visit_options(O& o, V&& v) {
     "least contrast of a bridge, as a share of the contrast at the end of its curve");
 }
 
-// Bridges as a whole raise F at s20 from .870 to .878 (docs/tuning.md, "bridges"). No field is
+// Bridges as a whole raise F at s20 from .870 to .878 (docs/experiments.md, "bridges"). No field is
 // measured on its own: a line tells what its value trades off.
 struct GapClosingTuning {
   int tip_pixels = 10;  // last pixels that tell the direction of an end and the contrast across it:

@@ -48,8 +48,8 @@ void visit_options(O& o, V&& v) {
 inline constexpr int kEdgeOrientations = 12;
 inline constexpr int kEdgeDirections = 2 * kEdgeOrientations;
 
-// "Measured" refers to the table of docs/tuning.md: mask F on simulated scenes with a range of 130
-// counts and noise of 20, 8 and 0 counts. Where a line names no measurement, it tells what the
+// "Measured" refers to the table of docs/experiments.md: mask F on simulated scenes with a range of
+// 130 counts and noise of 20, 8 and 0 counts. Where a line names no measurement, it tells what the
 // value trades off.
 struct OrientedFilterTuning {
   static constexpr std::size_t kSides = 2;

@@ -29,7 +29,7 @@ void visit_options(O& o, V&& v) {
   v("loop_line_ratio", o.loop_line_ratio, Bounds{1e-6, 1e6}, "Phi of a loop (a line has 1)");
 }
 
-// Of the score by saliency. Chosen on the simulated scenes of docs/tuning.md.
+// Of the score by saliency. Chosen on the simulated scenes of docs/experiments.md.
 struct ScoringTuning {
   double least_mean = 0.02;  // least mean suppressed response, in units of the noise, so that the
                              // logarithm is finite; far below the low threshold of the edge pixels

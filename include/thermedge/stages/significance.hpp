@@ -108,7 +108,7 @@ struct SignificanceTuning {
   NoiseEdgeTuning noise_edges = {};
 };
 
-// Measured: docs/tuning.md ("Significance").
+// Measured: docs/experiments.md ("Significance").
 //
 // Fills what measure_contrast fills (contrast.hpp), for edges that must prove themselves on the
 // frame before denoising. The contrast is up to 4.5 px to both sides, without the edgels of the

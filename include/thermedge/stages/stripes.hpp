@@ -27,8 +27,8 @@ void visit_options(O& o, V&& v) {
 }
 
 // Which pixels say nothing about stripes because an edge of the scene lies between them. Unit of
-// length: squares of 2x2 pixels. The mask as a whole is measured in docs/tuning.md ("stripes: a
-// mask for each direction"); no field was varied there on its own.
+// length: squares of 2x2 pixels. The mask as a whole is measured in docs/experiments.md ("stripes:
+// a mask for each direction"); no field was varied there on its own.
 struct StripeMaskTuning {
   // Half the heights of the windows in which long faint edges show, squares: a taller one sees
   // fainter edges, a lower one shorter edges.
@@ -62,7 +62,8 @@ struct StripeTuning {
   // it. Stripes are still in the way in the earlier ones.
   std::array<double, 2> edge_gradients = {5.0, 4.5};
   // The trend of a smooth scene, such as that of a lens darker towards the corners, is a polynomial
-  // (docs/tuning.md, "Stripes"). First of slopes, from every so many-th column: 8 see it less well.
+  // (docs/experiments.md, "Stripes"). First of slopes, from every so many-th column: 8 see it less
+  // well.
   int slope_step_px = 4;
   // It counts as far as it exceeds so many deviations of the stripes: a lower value takes strong
   // stripes for a trend, a higher one the flanks of vignetting for jumps. From so many on, rms, it

@@ -11,7 +11,6 @@ namespace {
 
 constexpr int kScale = 2;
 constexpr int kLeastRangeCounts = 16;
-constexpr Rgb kBeyondBudget = {70, 120, 150};
 
 struct Stretch {
   int low = 0;
@@ -152,19 +151,37 @@ Rgb rank_colour(double share) {
   return plasma(1 - (1 - kLast) * std::clamp(share, 0.0, 1.0));
 }
 
+Rgb status_colour(EdgeStatus status) {
+  switch (status) {
+    case EdgeStatus::kKept:
+      break;
+    case EdgeStatus::kBeyondBudget:
+      return {70, 150, 255};
+    case EdgeStatus::kWeak:
+      return {190, 120, 220};
+    case EdgeStatus::kInsignificant:
+      return {235, 80, 70};
+    case EdgeStatus::kLowContrast:
+      return {0, 200, 130};
+  }
+  return rank_colour(0);
+}
+
 void draw_overlay(const Detection& detection, ImageView<const std::uint16_t> counts,
-                  Image<Rgb>& overlay) {
+                  Image<Rgb>& overlay, OverlayContent content) {
   overlay.resize(detection.width * kScale, detection.height * kScale);
   draw_background(detection, counts, overlay);
   Canvas canvas(overlay);
   const EdgeSet& set = detection.edges;
-  for (std::size_t i = set.kept; i < set.edges.size(); ++i) {
-    draw_edge(set, set.edges[i], kBeyondBudget, canvas);
+  const bool explained = content == OverlayContent::kExplained;
+  for (std::size_t i = set.edges.size(); explained && i-- > set.kept;) {
+    draw_edge(set, set.edges[i], status_colour(set.edges[i].status), canvas);
   }
   const double last = std::max<double>(1.0, static_cast<double>(set.kept) - 1);
   // Best last, so that it lies on top.
   for (std::size_t i = set.kept; i-- > 0;) {
-    draw_edge(set, set.edges[i], rank_colour(static_cast<double>(i) / last), canvas);
+    const double share = explained ? 0 : static_cast<double>(i) / last;
+    draw_edge(set, set.edges[i], rank_colour(share), canvas);
     draw_corners(set, set.edges[i], canvas);
   }
   for (const Junction& junction : set.junctions) {

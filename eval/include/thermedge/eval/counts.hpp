@@ -26,7 +26,8 @@ struct MatchCounts {
   std::int64_t found_matched = 0;  // by any annotator
   std::int64_t found = 0;
 
-  // Shares of 1; where there is nothing to divide by, 0.
+  // Shares of 1; where there is nothing to divide by, 0. Both are 1 where there is nothing to find
+  // and nothing was found.
   [[nodiscard]] double recall() const;
   [[nodiscard]] double precision() const;
   [[nodiscard]] double f_measure() const;
@@ -56,5 +57,10 @@ struct CountOptions {
 
 // Pixels of at least `threshold` as a map of 0 and 1, one pixel wide.
 void thin_at(ImageView<const std::uint8_t> strength, double threshold, Image<std::uint8_t>& map);
+
+// The same for maps that are judged: a map that is just what an annotator drew stays as it is, so
+// that a map against itself is exact.
+void found_at(ImageView<const std::uint8_t> strength, double threshold,
+              std::span<const Image<std::uint8_t>> annotators, Image<std::uint8_t>& map);
 
 }  // namespace thermedge::eval

@@ -40,8 +40,9 @@ struct CurveFrame {
 // So is an error: curves that are longer in all than four times the pixels of the frame.
 [[nodiscard]] Result<CurveFrame> parse_curves(std::string_view json, const std::string& name);
 
-// Paints the pixels that the curves pass (nearest pixel, 255) into a map of the frame's size, which
-// is overwritten; parts outside are left out. Curves of less contrast are left out.
+// Paints the points of the curves (nearest pixel, 255), and the pixels between points that lie
+// farther apart than neighbouring pixels, into a map of the frame's size, which is overwritten;
+// parts outside are left out. Curves of less contrast are left out.
 void draw_curves(const CurveFrame& frame, double least_contrast_counts, Image<std::uint8_t>& map);
 
 // Finds the place on a set of curves that is nearest to a point. Immutable; thread-safe.

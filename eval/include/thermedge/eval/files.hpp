@@ -65,7 +65,8 @@ class PredictionSet {
 
 // Truth for frames by base name. In a directory: NAME.npz ('maps' of (n, h, w), each an
 // annotator's, and 'all' with edges that precision accepts besides), NAME.mat (groundTruth of BSDS,
-// or plain arrays), NAME.png, NAME_*.png, NAME/*.png (above 127: edge), NAME.json or NAME.jsonl
+// or plain arrays), NAME.png, NAME_*.png, NAME/*.png (edges: what is not 0, where there
+// is one other value; else what is above 127), NAME.json or NAME.jsonl
 // (curves), looked for in this order; or one file. One file of JSON lines (.jsonl; in a directory:
 // the only one there) holds the frames in the order of the results. Const functions are
 // thread-safe.

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,11 +16,23 @@
 
 namespace thermedge::figures {
 
+enum class GradientUnit : std::uint8_t { kCounts, kSigma };
+
+// Gradients in counts a pixel (levels of an 8-bit frame), or in units of the frame's noise a pixel.
+struct CannyThresholds {
+  Quantity<GradientUnit> high;
+  Quantity<GradientUnit> low;
+};
+
 struct ComparisonOptions {
   DetectorOptions detector;
   ClassicalOptions classical;
-  // The denoiser before the classical detectors; they get the 8-bit view of Algorithm 1.
-  DenoiseMethod classical_denoiser = DenoiseMethod::kNone;
+  // The denoiser before the classical detectors, which then get the 8-bit view of Algorithm 1.
+  // None given: they get the very picture that thermedge finds its edges on.
+  std::optional<DenoiseMethod> classical_denoiser = {};
+  // Thresholds of the classical Canny; 0: automatic (ClassicalOptions::canny). A low one of 0 is
+  // 0.4 of the high one, which must be given where the low one is.
+  CannyThresholds canny_thresholds;
   double panel_width = kPanelWidth;  // about the width of a panel, points
 };
 
@@ -30,7 +43,7 @@ struct ComparedMap {
   Image<std::uint8_t> edges;  // 255 edge, 0 none
   std::size_t edge_pixels = 0;
   std::size_t fragments = 0;  // groups of touching edge pixels
-  double ms = 0;              // from the frame to the map; median of some runs
+  double ms = 0;              // from the frame to the map, denoising included; median of some runs
 };
 
 struct Comparison {
@@ -41,7 +54,7 @@ struct Comparison {
 // One object per thread.
 class ComparisonSheet {
  public:
-  // Fails where an option is out of range.
+  // Fails where an option is out of range, or where the low threshold is above the high one.
   [[nodiscard]] static Result<ComparisonSheet> create(const ComparisonOptions& options);
   ComparisonSheet(ComparisonSheet&&) noexcept;
   ComparisonSheet& operator=(ComparisonSheet&&) noexcept;
@@ -49,7 +62,8 @@ class ComparisonSheet {
 
   // `frame`, `bits` and `valid` (Frame::valid) as for Detector::detect; `source` names the frame on
   // the sheet.
-  // Errors: those of Detector::detect and of the denoiser.
+  // Errors: those of Detector::detect and of the denoiser; thresholds in units of the noise where
+  // the frame has none.
   [[nodiscard]] Result<Comparison> draw(ImageView<const std::uint16_t> frame, int bits,
                                         const std::string& source,
                                         ImageView<const std::uint8_t> valid = {});
