@@ -31,6 +31,7 @@ std::vector<std::string> names_of(const CommandText& command) {
 
 std::vector<std::string> names_of(const std::vector<CommandText>& commands) {
   std::vector<std::string> names;
+  names.reserve(commands.size());
   for (const CommandText& command : commands) {
     names.push_back(command.name);
   }
@@ -286,6 +287,7 @@ void add_completion(CLI::App& program, int& exit_code) {
       "completion", "print the script that completes commands and options in a shell");
   auto shell = std::make_shared<std::string>();
   std::vector<std::string> names;
+  names.reserve(kShells.size());
   for (const Shell& known : kShells) {
     names.emplace_back(known.name);
   }

@@ -202,6 +202,7 @@ struct Picture {
   UsualRows usual;
   std::vector<std::uint32_t> pixels;  // with each count
   double all = 0;
+  int low = 0, high = 0;  // counts between which nearly all pixels lie
 
   [[nodiscard]] bool lacks(int count) const {
     return pixels[static_cast<std::size_t>(count)] < 0.01 * all;
@@ -211,22 +212,37 @@ struct Picture {
 Picture picture_within(Counts frame, const InputFaultTuning& tuning) {
   const int margin = tuning.most_telemetry_rows;
   const Counts inner = frame.crop(0, margin, frame.width(), frame.height() - 2 * margin);
-  Picture picture{usual_rows(inner), std::vector<std::uint32_t>(65536), 0};
+  Picture picture{usual_rows(inner), std::vector<std::uint32_t>(65536)};
   for (int y = 0; y < inner.height(); ++y) {
     for (int x = 0; x < inner.width(); ++x) {
       ++picture.pixels[inner(x, y)];
     }
   }
   picture.all = static_cast<double>(inner.size());
+  const auto count_of = [&](double share) {
+    double pixels = 0;
+    int count = -1;
+    while (count < 65535 && pixels <= share * picture.all) {
+      pixels += picture.pixels[static_cast<std::size_t>(++count)];
+    }
+    return count;
+  };
+  picture.low = count_of(0.001);
+  picture.high = count_of(0.999);
   return picture;
 }
 
-// Whether a row holds numbers that are no picture: neighbours differ wildly, or one number that the
-// picture lacks fills much of it. Rows of one number are borders.
+// Whether a row holds numbers that are no picture: neighbours differ wildly, one number that the
+// picture lacks fills much of it, or most numbers are far from those of the picture. Rows of one
+// number are borders.
 bool holds_telemetry(Counts frame, int row, const Picture& picture,
                      const InputFaultTuning& tuning) {
   std::vector<int> values = row_of(frame, row);
   std::sort(values.begin(), values.end());
+  const double far = tuning.stranger_distance * (picture.high - picture.low);
+  const auto strangers = std::count_if(values.begin(), values.end(), [&](int value) {
+    return value < picture.low - far || value > picture.high + far;
+  });
   std::size_t most = 0;
   int repeated = 0;
   int distinct = 0;
@@ -244,7 +260,9 @@ bool holds_telemetry(Counts frame, int row, const Picture& picture,
   const bool is_filled =
       static_cast<double>(most) > tuning.telemetry_repeats * static_cast<double>(values.size()) &&
       picture.lacks(repeated);
-  return distinct > 2 && (is_rough || is_filled);
+  const bool is_strange = static_cast<double>(strangers) >
+                          tuning.telemetry_strangers * static_cast<double>(values.size());
+  return distinct > 1 && (is_rough || is_filled || is_strange);
 }
 
 // Rows of telemetry at the border that `row_at(0)` lies at; row_at(1) is the next one.

@@ -25,13 +25,15 @@ struct InputFaultTuning {
 
   // Rows. Jumps from row to row are medians along them, in units of the usual one of the frame.
   int most_telemetry_rows = 8;
-  double telemetry_jump = 8;       // least, into the telemetry
-  double telemetry_roughness = 8;  // least, of neighbours along a row, in units of the usual one
-  double telemetry_repeats = 0.4;  // least share of one count in a row that the picture lacks
-  double most_correlation = 0.5;   // of a telemetry row and the row of the picture beside it
-  double seam_jump = 4;            // least, between the two pictures of a double one
-  double least_likeness = 0.7;     // of the means of blocks of the two pictures
-  double sure_likeness = 0.9;      // from which the seam need not be the largest jump
+  double telemetry_jump = 8;         // least, into the telemetry
+  double telemetry_roughness = 8;    // least, of neighbours along a row, in units of the usual one
+  double telemetry_repeats = 0.4;    // least share of one count in a row that the picture lacks
+  double telemetry_strangers = 0.5;  // least share of counts far from those of the picture
+  double stranger_distance = 0.5;    // of such a count, in units of the picture's range
+  double most_correlation = 0.5;     // of a telemetry row and the row of the picture beside it
+  double seam_jump = 4;              // least, between the two pictures of a double one
+  double least_likeness = 0.7;       // of the means of blocks of the two pictures
+  double sure_likeness = 0.9;        // from which the seam need not be the largest jump
 
   // Borders: pixels of one count that lies far from all others.
   double least_invalid_share = 0.002;  // of the pixels

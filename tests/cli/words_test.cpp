@@ -203,6 +203,36 @@ TEST_F(Words, WriteTakesOneWordAndNoInput) {
   EXPECT_TRUE(fs::exists(directory_ / "two/frame/log.png"));
 }
 
+// A map of strengths or a photograph is no binary map.
+TEST_F(Words, TraceOfMoreThanTwoValuesAsksForAThreshold) {
+  const auto square = [&](char strong, char weak) {
+    std::string pixels(40 * 40, '\0');
+    for (int i = 8; i < 32; ++i) {
+      pixels[static_cast<std::size_t>(40 * 8 + i)] = strong;
+      pixels[static_cast<std::size_t>(40 * 31 + i)] = strong;
+      pixels[static_cast<std::size_t>(40 * i + 8)] = weak;
+      pixels[static_cast<std::size_t>(40 * i + 31)] = strong;
+    }
+    return "P5 40 40 255\n" + pixels;
+  };
+  write_text(path("two.pgm"), square('\xff', '\xff'));
+  write_text(path("one.pgm"), square('\1', '\1'));
+  write_text(path("three.pgm"), square('\xff', '\x40'));
+  write_text(path("empty.pgm"), "P5 40 40 255\n" + std::string(1600, '\0'));
+  const auto edges = [&](const std::string& arguments) {
+    return nlohmann::json::parse(output_of("trace " + arguments + " -o -"))["edges"];
+  };
+  EXPECT_FALSE(edges("two.pgm").empty());
+  EXPECT_EQ(edges("one.pgm"), edges("two.pgm"));
+  EXPECT_TRUE(edges("empty.pgm").empty());
+  EXPECT_EQ(edges("three.pgm --threshold 1"), edges("two.pgm"));
+  EXPECT_NE(edges("three.pgm --threshold 65"), edges("two.pgm"));
+  EXPECT_TRUE(edges("three.pgm --threshold 256").empty());
+  expect_one_line_each({{"trace three.pgm -o -", 1, "--threshold VALUE"},
+                        {"trace three.pgm -o - --threshold some", 2, "--threshold"}},
+                       directory_);
+}
+
 // SCENE, then --set, then the flags, each over what was before, and the camera before all of them.
 TEST_F(Words, SimulateKeepsToTheSameLevels) {
   const auto frames = [&](const std::string& arguments) {
@@ -228,6 +258,7 @@ TEST_F(Words, ExitCodesAreThoseOfTheDocumentation) {
   write_text(path("frame.pgm"), "P5 8 6 255\n" + std::string(48, 'x'));
   write_text(path("damaged.png"), "\x89PNG\r\n\x1a\nrubbish");
   write_text(path("notes.txt"), "not a picture");
+  write_text(path("three_values.pgm"), "P5 3 2 255\nabcabc");
   write_text(path("unknown.toml"), "[selection]\nkeep = 1\n");
   write_text(path("apart.toml"), "[denoise.nlm]\npatch_px = 5\n");
   write_text(path("damaged.toml"), "a = [1\n");
