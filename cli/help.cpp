@@ -131,16 +131,17 @@ std::string full_help(const OptionText& option) {
 }
 
 std::string names_and_argument(const OptionText& option) {
-  const std::string space = option.argument.empty() || !option.name.starts_with("-") ? "" : " ";
-  return (option.short_name.empty() ? "" : option.short_name + ", ") + option.name + space +
-         (space.empty() ? "" : option.argument);
+  const bool has_argument = option.name.starts_with("-") && !option.argument.empty();
+  return fmt::format("{}{}{}{}{}", option.short_name, option.short_name.empty() ? "" : ", ",
+                     option.name, has_argument ? " " : "", has_argument ? option.argument : "");
 }
 
 std::string usage_of(const CommandText& command) {
-  std::string usage = "thermedge " + command.name + " [OPTIONS]";
+  std::string usage = fmt::format("thermedge {} [OPTIONS]", command.name);
   for (const OptionText& positional : command.positionals) {
-    const std::string word = positional.name + (positional.may_repeat ? "..." : "");
-    usage += positional.is_required || positional.name == "INPUT" ? " " + word : " [" + word + "]";
+    const bool is_needed = positional.is_required || positional.name == "INPUT";
+    usage += fmt::format(" {}{}{}{}", is_needed ? "" : "[", positional.name,
+                         positional.may_repeat ? "..." : "", is_needed ? "" : "]");
   }
   return usage;
 }
@@ -170,7 +171,7 @@ std::string command_help(const CommandText& command) {
     for (const OptionText& option : command.options) {
       entries += option.group == group ? entry(names_and_argument(option), full_help(option)) : "";
     }
-    text += entries.empty() ? "" : "\n" + group + ":\n" + entries;
+    text += entries.empty() ? "" : fmt::format("\n{}:\n{}", group, entries);
   }
   if (command.has_option("--preset")) {
     text += presets();

@@ -73,14 +73,14 @@ std::string page_of(const CommandText& command) {
     for (const OptionText& option : command.options) {
       entries += option.group == group ? entry(names_and_argument(option), full_help(option)) : "";
     }
-    text += entries.empty() ? "" : fmt::format(".SS {}\n", group) + entries;
+    text += entries.empty() ? "" : fmt::format(".SS {}\n{}", group, entries);
   }
   if (command.has_option("--preset")) {
     text += section("PRESETS");
     for (const auto& [preset, name] : kPresets) {
       text += entry(name, preset_meaning(preset));
     }
-    text += command.has_option("--config") ? ".PP\n" + roff(kPrecedence) + "\n" : "";
+    text += command.has_option("--config") ? fmt::format(".PP\n{}\n", roff(kPrecedence)) : "";
   }
   return text + exit_status() + examples(examples_of(command.name)) + section("SEE ALSO") +
          ".BR thermedge (1)\n";
