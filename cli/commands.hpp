@@ -17,5 +17,7 @@ void add_bench(CLI::App& program, int& exit_code);
 void add_probe(CLI::App& program, int& exit_code);
 void add_simulate(CLI::App& program, int& exit_code);
 void add_evaluate(CLI::App& program, int& exit_code);
+void add_completion(CLI::App& program, int& exit_code);
+void add_man(CLI::App& program, int& exit_code);
 
 }  // namespace thermedge::cli

@@ -1,6 +1,6 @@
 #include "common.hpp"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <charconv>
@@ -88,9 +88,8 @@ class FrameReader {
 }  // namespace
 
 void RunOptions::add_to(CLI::App& app) {
-  app.add_option("--threads", threads, "threads (0: one per core)")
-      ->check(CLI::Range(0, 1024))
-      ->capture_default_str();
+  app.add_option("--threads", threads, "threads (default 0: one per core)")
+      ->check(CLI::Range(0, 1024));
   app.add_flag("--quiet", quiet, "errors only");
   app.add_flag("--json-log", json_log, "messages as JSON lines");
 }
@@ -161,20 +160,38 @@ InputFiles CommonOptions::input_files(const io::SourceOptions& source,
 
 void ConfigOptions::add_to(CLI::App& app) {
   app.add_option("--config", file, "options from a TOML file");
-  app.add_option("--set", settings, "one option, stage.option=value; may be repeated")
+  app.add_option("--set", settings,
+                 "one option, stage.option=value (--dump-config lists them); may be repeated")
       ->expected(1)
       ->allow_extra_args(false)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   app.add_flag("--dump-config", dump, "print all options as TOML and stop");
 }
 
-Status ConfigOptions::apply(io::PresetChoice choice, DetectorOptions& options,
-                            io::SourceOptions& source) const {
-  Status status;
-  if (!file.empty()) {
-    status = io::load_config(file, choice, options, &source);
+Result<DetectorOptions> ConfigOptions::detector_options(const std::optional<std::string>& preset,
+                                                        io::SourceOptions& source) const {
+  constexpr std::string_view kPresetSetting = "preset=";
+  std::vector<std::string> others;
+  std::optional<std::string> chosen;
+  for (const std::string& setting : settings) {
+    if (setting.starts_with(kPresetSetting)) {
+      chosen = setting.substr(kPresetSetting.size());
+      if (!preset_named(*chosen)) {
+        return failure(ErrorCode::kInvalidArgument,
+                       fmt::format("--set {}: should be one of {}", setting,
+                                   fmt::join(names_of(kPresets), ", ")));
+      }
+    } else {
+      others.push_back(setting);
+    }
   }
-  return status.and_then([&] { return apply_settings(settings, options, source); });
+  chosen = preset ? preset : chosen;
+  DetectorOptions options = chosen ? DetectorOptions(*preset_named(*chosen)) : DetectorOptions();
+  const auto choice = chosen ? io::PresetChoice::kFixed : io::PresetChoice::kFree;
+  Status status = file.empty() ? Status() : io::load_config(file, choice, options, &source);
+  return status.and_then([&] { return apply_settings(others, options, source); }).map([&] {
+    return options;
+  });
 }
 
 Status ConfigOptions::apply(FrameDenoiserOptions& options, io::SourceOptions& source) const {

@@ -30,7 +30,7 @@ template <class E, std::size_t N>
 
 // --threads, --quiet, --json-log.
 struct RunOptions {
-  int threads = 0;
+  std::optional<int> threads;  // as given; 0: one per core
   bool quiet = false;
   bool json_log = false;
 
@@ -97,10 +97,10 @@ struct ConfigOptions {
   bool dump = false;
 
   void add_to(CLI::App& app);
-  // The file, then --set, each over what was before. `choice`: whether the file may choose the
-  // preset.
-  [[nodiscard]] Status apply(io::PresetChoice choice, DetectorOptions& options,
-                             io::SourceOptions& source) const;
+  // The preset, which is `preset` (of --preset), else that of --set preset=NAME, else that of the
+  // file; then what else the file says, then --set, each over what was before.
+  [[nodiscard]] Result<DetectorOptions> detector_options(const std::optional<std::string>& preset,
+                                                         io::SourceOptions& source) const;
   [[nodiscard]] Status apply(FrameDenoiserOptions& options, io::SourceOptions& source) const;
 };
 

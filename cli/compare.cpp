@@ -85,16 +85,20 @@ Result<std::vector<std::string>> CompareCommand::wanted_maps() const {
   if (!maps) {
     return std::vector<std::string>{};
   }
+  if (*maps == "all") {
+    return known;
+  }
   std::vector<std::string> wanted = split_list(*maps);
   for (const std::string& name : wanted) {
     if (std::find(known.begin(), known.end(), name) == known.end()) {
-      return failure(ErrorCode::kInvalidArgument,
-                     fmt::format("--write {}: should be of prewitt, roberts, sobel, log, canny, "
-                                 "thermedge",
-                                 name));
+      return failure(
+          ErrorCode::kInvalidArgument,
+          fmt::format("--write {}: should be all, or of prewitt, roberts, sobel, log, canny, "
+                      "thermedge",
+                      name));
     }
   }
-  return wanted.empty() ? known : wanted;
+  return wanted;
 }
 
 Status write(const figures::Comparison& made, const std::vector<std::string>& wanted,
@@ -173,8 +177,7 @@ void add_compare(CLI::App& program, int& exit_code) {
       ->check(CLI::Range(0, 61))
       ->capture_default_str();
   app.add_option("--write", command->maps,
-                 "write single maps too: all, or of prewitt,roberts,sobel,log,canny,thermedge")
-      ->expected(0, 1);
+                 "write single maps too: all, or of prewitt,roberts,sobel,log,canny,thermedge");
   app.callback([command, &exit_code] { exit_code = command->draw(); });
 }
 

@@ -42,7 +42,7 @@ struct DenoiseCommand {
   CommonOptions common;
   ConfigOptions config;
   std::optional<std::string> method;
-  std::string sigma = "auto";
+  std::optional<std::string> sigma;
 
   [[nodiscard]] Status apply_to(FrameDenoiserOptions& options, io::SourceOptions& source) const;
   [[nodiscard]] int run() const;
@@ -54,11 +54,12 @@ Status DenoiseCommand::apply_to(FrameDenoiserOptions& options, io::SourceOptions
     status =
         status.and_then([&] { return io::apply_setting("denoise.method=" + *method, options); });
   }
-  return status.and_then([&] { return parse_sigma(sigma); })
-      .map([&](double counts) {
-        options.denoise.sigma_counts = counts > 0 ? counts : options.denoise.sigma_counts;
-      })
-      .and_then([&] { return options.check(); });
+  if (sigma) {
+    status = status.and_then([&] { return parse_sigma(*sigma); }).map([&](double counts) {
+      options.denoise.sigma_counts = counts;
+    });
+  }
+  return status.and_then([&] { return options.check(); });
 }
 
 int DenoiseCommand::run() const {
@@ -84,7 +85,7 @@ int DenoiseCommand::run() const {
     return console.fail(output.error());
   }
   console.set_results(common.output);
-  const auto runner = make_runner(common.threads);
+  const auto runner = make_runner(common.threads.value_or(0));
   FrameDenoiser denoiser(options);
   return for_each_frame(
       common, *source, console, output->room(), [&](const io::SourceFrame& frame) -> Status {
@@ -112,7 +113,7 @@ void add_denoise(CLI::App& program, int& exit_code) {
   app.get_option("INPUT")->required(false);  // --dump-config needs none
   app.add_option("--method", command->method, "denoiser (default bm3d)")
       ->check(CLI::IsMember(names_of(kDenoiseMethods)));
-  app.add_option("--sigma", command->sigma, "noise: auto or counts")->capture_default_str();
+  app.add_option("--sigma", command->sigma, "noise: auto (the default) or counts");
   app.callback([command, &exit_code] { exit_code = command->run(); });
 }
 

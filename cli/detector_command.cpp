@@ -1,5 +1,7 @@
 #include "detector_command.hpp"
 
+#include <fmt/format.h>
+
 #include <vector>
 
 #include "standard_output.hpp"
@@ -10,10 +12,22 @@
 namespace thermedge::cli {
 namespace {
 
+// The kind of value of an option for help and completion: "NAME:{none,gaussian}" where it is one of
+// a list.
+std::string type_of(std::string_view option) {
+  for (const io::OptionInfo& known : io::list_options()) {
+    if (known.name == option && !known.choices.empty()) {
+      return fmt::format("NAME:{{{}}}", fmt::join(known.choices, ","));
+    }
+  }
+  return "VALUE";
+}
+
 void add_flags(bool of_denoising, DetectorCommand& command, CLI::App& app) {
   for (std::size_t i = 0; i < kFlags.size(); ++i) {
     if (kFlags[i].of_denoising == of_denoising) {
-      app.add_option(kFlags[i].flag, command.flags[i], kFlags[i].help);
+      app.add_option(kFlags[i].flag, command.flags[i], kFlags[i].help)
+          ->type_name(type_of(kFlags[i].option));
     }
   }
 }
@@ -54,14 +68,12 @@ void DetectorCommand::add_denoising_to(CLI::App& app) {
 }
 
 Result<DetectorOptions> DetectorCommand::options(io::SourceOptions& source) const {
-  DetectorOptions options;
-  for (const auto& known : kPresets) {
-    if (known.name == preset) {
-      options = DetectorOptions(known.value);
-    }
+  auto configured = config.detector_options(preset, source);
+  if (!configured) {
+    return configured;
   }
-  Status status =
-      config.apply(preset ? io::PresetChoice::kFixed : io::PresetChoice::kFree, options, source);
+  DetectorOptions& options = *configured;
+  Status status;
   for (std::size_t i = 0; i < kFlags.size() && status; ++i) {
     if (flags[i]) {
       status = io::apply_setting(std::string(kFlags[i].option) + "=" + *flags[i], options)
@@ -78,15 +90,10 @@ Result<DetectorOptions> DetectorCommand::options(io::SourceOptions& source) cons
   if (sigma && status) {
     status = parse_sigma(*sigma).map([&](double counts) { options.denoise.sigma_counts = counts; });
   }
-  if (common.threads != 0) {
-    options.threads = common.threads;
-  }
+  options.threads = common.threads.value_or(options.threads);
   options.simd = common.simd;
   status = status.and_then([&] { return options.check(); });
-  if (!status) {
-    return tl::unexpected(status.error());
-  }
-  return options;
+  return status.map([&] { return options; });
 }
 
 int DetectorCommand::run(const Work& work) const {

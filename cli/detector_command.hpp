@@ -45,7 +45,7 @@ struct DetectorCommand {
 
   void add_to(CLI::App& app);
   void add_denoising_to(CLI::App& app);
-  // Dedicated options come last, over --set, over the file, over the preset.
+  // The preset, then the file, then --set, then dedicated options, each over what was before.
   // `source` takes what the file and --set say about sources.
   [[nodiscard]] Result<DetectorOptions> options(io::SourceOptions& source) const;
 

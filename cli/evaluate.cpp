@@ -52,7 +52,7 @@ Result<std::string> EvaluateCommand::with_truth(const eval::PredictionSet& set,
   if (!truth_set) {
     return tl::unexpected(truth_set.error());
   }
-  return eval::evaluate(set, *truth_set, options, *make_runner(threads))
+  return eval::evaluate(set, *truth_set, options, *make_runner(threads.value_or(0)))
       .map([&](const eval::Evaluation& evaluation) {
         report_all(evaluation.errors, report);
         return as_json()
@@ -62,7 +62,7 @@ Result<std::string> EvaluateCommand::with_truth(const eval::PredictionSet& set,
 }
 
 Result<std::string> EvaluateCommand::alone(const eval::PredictionSet& set, Console& report) const {
-  return eval::evaluate_without_truth(set, options, *make_runner(threads))
+  return eval::evaluate_without_truth(set, options, *make_runner(threads.value_or(0)))
       .map([&](const eval::TruthlessEvaluation& evaluation) {
         report_all(evaluation.errors, report);
         return as_json() ? eval::evaluation_to_json(evaluation, found)

@@ -57,6 +57,7 @@ class Page {
   std::string text(const std::string& name) {
     text_ = fmt::format("{}: {} frame{} of {}x{} pixels\n", name, report_.frames,
                         report_.frames == 1 ? "" : "s", report_.width, report_.height);
+    input();
     range();
     noise();
     stripes();
@@ -77,8 +78,9 @@ class Page {
   void more(std::string_view meaning) { row("", "", meaning); }
 
   // 8-bit pictures have levels, whose worth nobody knows.
-  [[nodiscard]] bool has_degrees() const { return report_.container_bits == 16; }
-  [[nodiscard]] std::string_view unit() const { return has_degrees() ? "counts" : "levels"; }
+  [[nodiscard]] bool has_counts() const { return report_.container_bits == 16; }
+  [[nodiscard]] bool has_degrees() const { return has_counts() && !report_.is_degc_implausible; }
+  [[nodiscard]] std::string_view unit() const { return has_counts() ? "counts" : "levels"; }
   [[nodiscard]] std::string amount(double counts, int digits) const {
     if (!has_degrees()) {
       return fmt::format("{:.{}f} {}", counts, digits, unit());
@@ -98,7 +100,9 @@ class Page {
     return "edges there are lost";
   }
 
+  void input();
   void range();
+  void degrees();
   void noise();
   void fixed_pattern();
   void spectrum();
@@ -114,21 +118,53 @@ class Page {
   std::string text_;
 };
 
+void Page::input() {
+  if (report_.input.empty()) {
+    return;
+  }
+  heading("Input: options that mend what these frames show");
+  for (const InputFault& fault : report_.input) {
+    row("", fault.flag + " " + fault.value, fault.reason);
+  }
+  more("What follows is of the frames as they are: probe again with it.");
+}
+
+// Temperatures, or why there are none.
+void Page::degrees() {
+  if (!has_counts()) {
+    return;
+  }
+  if (report_.is_degc_implausible) {
+    const auto [low, high] = report_.implausible_degc;
+    row("", fmt::format("{:.0f} to {:.0f} degC: implausible", low, high),
+        fmt::format("for a scene with {:.2g} degC of noise: --camera is not",
+                    report_.implausible_sigma_degc));
+    more("that of this recording. Give its own scale, or confirm this one in");
+    more("numbers: --camera linear:DEGC_PER_COUNT,DEGC_AT_ZERO");
+  } else if (report_.min_degc && report_.max_degc) {
+    row("", fmt::format("{:.1f} to {:.1f} degC", *report_.min_degc, *report_.max_degc),
+        report_.camera_source == CameraSource::kName
+            ? "as temperatures of black bodies, by the camera's response"
+            : "as temperatures, by the response given or stored");
+  }
+  if (report_.is_degc_assumed) {
+    row("a count", fmt::format("{:g} degC", report_.degc_per_count),
+        "assumed; --camera or --degc-per-count tells it");
+  }
+}
+
 void Page::range() {
   heading("Range");
   row("bits", fmt::format("{} of {} used", report_.used_bits, report_.container_bits),
-      has_degrees() ? "raw counts, as they should be"
-                    : "scaled already: the camera's raw 16 bits are better");
+      has_counts() ? "raw counts, as they should be"
+                   : "scaled already: the camera's raw 16 bits are better");
   if (report_.unused_low_bits > 0) {
     more(fmt::format("all counts are multiples of {}: shifted by {} bits, which is harmless",
                      1 << report_.unused_low_bits, report_.unused_low_bits));
   }
   row("of all frames", fmt::format("{} to {} {}", report_.min_counts, report_.max_counts, unit()),
       "the coldest and the hottest pixel, bad ones included");
-  if (report_.min_degc && report_.max_degc) {
-    row("", fmt::format("{:.1f} to {:.1f} degC", *report_.min_degc, *report_.max_degc),
-        "as temperatures of black bodies, by the camera's response");
-  }
+  degrees();
   row("of a frame", amount(report_.range_counts, 0), "its hottest minus its coldest pixel (eq. 3)");
   row("most of it", amount(report_.robust_range_counts, 0), "from the 1st to the 99th percentile");
 }
@@ -141,8 +177,13 @@ void Page::noise() {
     return;
   }
   row("sigma", amount(sigma, 2),
-      has_degrees() ? grade(kSigmaGrades, sigma * report_.degc_per_count)
-                    : "whatever the camera's automatic gain made of it");
+      has_degrees()  ? grade(kSigmaGrades, sigma * report_.degc_per_count)
+      : has_counts() ? "what detect tells of these frames"
+                     : "whatever the camera's automatic gain made of it");
+  if (report_.sigma_value) {
+    row("", fmt::format("{:.4g}", *report_.sigma_value),
+        "in the unit of the file, as detect tells it");
+  }
   std::vector<double> tiles = report_.noise_map.sigma_counts;
   std::sort(tiles.begin(), tiles.end());
   const double low = tiles[tiles.size() / 10];
@@ -153,7 +194,7 @@ void Page::noise() {
       "between neighbours; sigma is over 5 to 16 px");
   if (report_.temporal_sigma_counts) {
     row("over time", fmt::format("{:.2f}", *report_.temporal_sigma_counts),
-        "new in every frame, pixel to pixel: averaging helps");
+        "new in every frame, of each pixel: averaging helps");
   }
   fixed_pattern();
   if (report_.snr) {
@@ -270,15 +311,20 @@ void Page::bad_pixels() {
       "flagged now and then: flicker, or points of the scene");
 }
 
+// The other presets of the detector work on counts.
 void Page::clipping() {
-  if (!has_degrees()) {
+  if (!has_counts()) {
     return;
   }
-  heading("Algorithm 1 (8 bits around the median)");
+  const bool is_used = report_.preset == Preset::kPaper;
+  heading(is_used ? "Algorithm 1 (8 bits around the median)"
+                  : "Algorithm 1 (8 bits around the median), for scale and preset paper only");
   for (const double gain : {0.5, 0.2}) {
     const double share = report_.clipped_share(gain);
     row(fmt::format("gain {}", gain), percent(share) + " clipped",
-        share > 0.02 ? lost_to_clipping() : "good");
+        share <= 0.02 ? "good"
+        : is_used     ? lost_to_clipping()
+                      : "edges there would be lost");
   }
 }
 
@@ -302,7 +348,7 @@ void Page::sequence() {
       report_.scene_moved == 0 ? "camera at rest" : "times the scene had moved enough to notice");
   row("flicker", amount(report_.flicker_counts.value_or(0), 2),
       "change of the median from frame to frame");
-  if (has_degrees()) {
+  if (has_counts()) {
     more(fmt::format("= {:.2f} grey levels of Algorithm 1 at gain 0.5",
                      0.5 * report_.flicker_counts.value_or(0)));
   }

@@ -1,10 +1,12 @@
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "commands.hpp"
 #include "common.hpp"
@@ -19,17 +21,20 @@ namespace {
 
 constexpr std::array<std::string_view, 4> kKinds = {"counts", "clean", "truth", "depth"};
 
+// What SCENE, --set and the flags change.
+constexpr const char* kDefaultKeys = "camera=pi450&path=hand&frames=100";
+
 constexpr const char* kTruthFile = "truth.jsonl";
 constexpr const char* kTrajectoryFile = "trajectory.txt";
 
 struct SimulateCommand : RunOptions {
   std::string scene;
   std::string output;
-  std::string camera = "pi450";
-  std::string path = "hand";
+  std::optional<std::string> camera;
+  std::optional<std::string> path;
   std::string write = "counts,clean,truth,depth";
   std::string format = "png";
-  std::optional<int> frames;
+  std::optional<std::string> frames;
   std::optional<std::string> seed;
   std::optional<std::string> netd_mk;
   std::vector<std::string> settings;
@@ -38,6 +43,7 @@ struct SimulateCommand : RunOptions {
     const auto kinds = split_list(write);
     return std::find(kinds.begin(), kinds.end(), kind) != kinds.end();
   }
+  [[nodiscard]] std::vector<std::pair<std::string, std::string>> given_keys() const;
   [[nodiscard]] Result<sim::SceneOptions> options() const;
   [[nodiscard]] Status check_output() const;
   [[nodiscard]] int run() const;
@@ -45,32 +51,50 @@ struct SimulateCommand : RunOptions {
   [[nodiscard]] Status write_all(sim::Renderer& renderer, Console& report) const;
 };
 
-// The camera first, then what changes it, --set last.
-Result<sim::SceneOptions> SimulateCommand::options() const {
-  auto options = sim::parse_scene(scene);
-  if (!options) {
-    return options;
-  }
-  std::vector<std::pair<std::string, std::string>> keys = {
-      {"camera", camera}, {"path", path}, {"frames", std::to_string(frames.value_or(100))}};
-  if (seed) {
-    keys.emplace_back("seed", *seed);
-  }
-  if (netd_mk) {
-    keys.emplace_back("netd_mk", *netd_mk);
-  }
+using Keys = std::vector<std::pair<std::string, std::string>>;
+
+// --set, then the flags, which win.
+Keys SimulateCommand::given_keys() const {
+  Keys keys;
   for (const std::string& setting : settings) {
     const auto equals = std::min(setting.find('='), setting.size());
     keys.emplace_back(setting.substr(0, equals),
                       setting.substr(std::min(equals + 1, setting.size())));
   }
-  for (const auto& [key, value] : keys) {
-    if (Status status = sim::set_scene_key(key, value, *options); !status) {
+  const auto add = [&](const char* key, const std::optional<std::string>& value) {
+    if (value) {
+      keys.emplace_back(key, *value);
+    }
+  };
+  add("camera", camera);
+  add("path", path);
+  add("frames", frames);
+  add("seed", seed);
+  add("netd_mk", netd_mk);
+  return keys;
+}
+
+// All keys go into one text, as the camera comes first there, wherever it stands: the others change
+// it.
+Result<sim::SceneOptions> SimulateCommand::options() const {
+  sim::SceneOptions scratch;
+  const auto typed = sim::parse_scene(scene);
+  if (!typed) {  // an input like a file, whatever is wrong with it
+    return failure(ErrorCode::kBadData, typed.error().message);
+  }
+  const std::size_t mark = std::min(scene.find('?'), scene.size());
+  std::string keys = kDefaultKeys;
+  keys += mark < scene.size() ? "&" + scene.substr(mark + 1) : "";
+  for (const auto& [key, value] : given_keys()) {
+    if (Status status = sim::set_scene_key(key, value, scratch); !status) {
       return tl::unexpected(status.error());
     }
+    keys += "&" + key + "=" + value;
   }
-  options->depth = writes("depth");
-  return options;
+  return sim::parse_scene(scene.substr(0, mark) + "?" + keys).map([&](sim::SceneOptions options) {
+    options.depth = writes("depth");
+    return options;
+  });
 }
 
 // As the camera would give it without noise: in whole counts.
@@ -107,7 +131,7 @@ Status SimulateCommand::write_frame(const sim::TrueFrame& frame, OutputDirectory
 }
 
 Status SimulateCommand::write_all(sim::Renderer& renderer, Console& report) const {
-  const auto runner = make_runner(threads);
+  const auto runner = make_runner(threads.value_or(0));
   OutputDirectory directory(output);
   const std::filesystem::path folder(output);
   LineFile truth((folder / kTruthFile).string());
@@ -180,14 +204,13 @@ void add_simulate(CLI::App& program, int& exit_code) {
   auto command = std::make_shared<SimulateCommand>();
   app.add_option("SCENE", command->scene,
                  "desk, corridor, office, road, empty, or a scene file (.toml, docs/scenes.md)")
-      ->required();
+      ->required()
+      ->type_name(fmt::format("FILE:{{{}}}", fmt::join(sim::scene_names(), ",")));
   app.add_option("-o,--output", command->output, "directory")->required();
-  app.add_option("--camera", command->camera, "the camera's optics and noise")
-      ->check(CLI::IsMember(sim::camera_names()))
-      ->capture_default_str();
-  app.add_option("--path", command->path, "how the camera moves")
-      ->check(CLI::IsMember({"hand", "drive", "pan", "still"}))
-      ->capture_default_str();
+  app.add_option("--camera", command->camera, "the camera's optics and noise (default pi450)")
+      ->check(CLI::IsMember(sim::camera_names()));
+  app.add_option("--path", command->path, "how the camera moves (default hand)")
+      ->check(CLI::IsMember({"hand", "drive", "pan", "still"}));
   app.add_option("--frames", command->frames, "number of frames (default 100)")
       ->check(CLI::Range(1, 1000000));
   app.add_option("--seed", command->seed, "noise, path, variations of the scene");

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string_view>
 
 #include "thermedge/option_list.hpp"
@@ -19,5 +20,9 @@ inline constexpr std::array kPresets = {EnumName{Preset::kRobust, "robust"},
                                         EnumName{Preset::kPaper, "paper"}};
 
 [[nodiscard]] std::string_view preset_name(Preset preset);
+[[nodiscard]] std::optional<Preset> preset_named(std::string_view name);
+
+// What it is for, in at most 75 characters.
+[[nodiscard]] std::string_view preset_meaning(Preset preset);
 
 }  // namespace thermedge

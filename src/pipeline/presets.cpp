@@ -63,4 +63,25 @@ std::string_view preset_name(Preset preset) {
   return "unknown";
 }
 
+std::optional<Preset> preset_named(std::string_view name) {
+  for (const auto& known : kPresets) {
+    if (known.name == name) {
+      return known.value;
+    }
+  }
+  return std::nullopt;
+}
+
+std::string_view preset_meaning(Preset preset) {
+  switch (preset) {
+    case Preset::kRobust:
+      return "the default: the best edges, after BM3D denoising";
+    case Preset::kFast:
+      return "robust's stages after a Gaussian and a bilateral filter instead of BM3D";
+    case Preset::kPaper:
+      return "the algorithms of the paper as its text defines them";
+  }
+  return "";
+}
+
 }  // namespace thermedge

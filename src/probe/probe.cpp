@@ -7,6 +7,8 @@
 #include <new>
 
 #include "probe_counts.hpp"
+#include "probe_degrees.hpp"
+#include "probe_input.hpp"
 #include "probe_model.hpp"
 #include "probe_motion.hpp"
 #include "probe_noise.hpp"
@@ -100,6 +102,8 @@ struct RecordingProbe::Impl {
   detail::StripeProfiles stripes;
   NoiseEstimator estimator;
   Series series;
+  detail::InputFaultFinder input_faults;
+  double counts_per_unit = 0;  // of the last frame
   InvalidFinder invalid_finder;
   HoleFiller hole_filler;
   Mean given_invalid, found_invalid, dead_rows, dead_columns;
@@ -294,15 +298,9 @@ RecordingReport RecordingProbe::Impl::finish() const {
   if (report.frames == 0) {
     return result;
   }
-  result.degc_per_count = options.degc_per_count;
-  if (options.camera && result.frames > 0) {
-    result.degc_per_count =
-        options.camera->degc_per_count((result.min_counts + result.max_counts) / 2.0);
-    result.min_degc = options.camera->to_degc(result.min_counts);
-    result.max_degc = options.camera->to_degc(result.max_counts);
-  }
   result.used_bits = std::bit_width(bits_set);
-  result.unused_low_bits = bits_set == 0 ? 0 : std::countr_zero(bits_set);
+  result.unused_low_bits =
+      totals.distinct() < tuning.least_values_for_shift ? 0 : std::countr_zero(bits_set);
   result.range_counts = range.value();
   result.robust_range_counts = robust_range.value();
   result.histogram = totals.histogram();
@@ -311,6 +309,9 @@ RecordingReport RecordingProbe::Impl::finish() const {
   result.dead_rows = dead_rows.value();
   result.dead_columns = dead_columns.value();
   finish_noise(result);
+  detail::fill_degrees(options, totals.quantile(tuning.range_tail_share),
+                       totals.quantile(1 - tuning.range_tail_share), result);
+  result.input = input_faults.faults();
   finish_bad_pixels(result);
   for (std::size_t i = 0; i < kGains.size(); ++i) {
     result.clipping.push_back({kGains[i], clipped[i].value()});
@@ -326,6 +327,9 @@ RecordingReport RecordingProbe::Impl::finish() const {
 
 void RecordingProbe::Impl::finish_noise(RecordingReport& result) const {
   model.report(result);
+  if (counts_per_unit > 0) {
+    result.sigma_value = result.sigma_counts / counts_per_unit;
+  }
   result.pixel_sigma_counts = noise.sigma_counts();
   result.frame_sigma_counts = frame_sigma.value();
   result.temporal_sigma_counts = noise.temporal_sigma_counts();
@@ -382,7 +386,7 @@ RecordingProbe& RecordingProbe::operator=(RecordingProbe&&) noexcept = default;
 RecordingProbe::~RecordingProbe() = default;
 
 Status RecordingProbe::add(ImageView<const std::uint16_t> frame, int bits,
-                           ImageView<const std::uint8_t> valid) {
+                           ImageView<const std::uint8_t> valid, double counts_per_unit) {
   if (!valid.empty() && !same_size(frame, valid)) {
     return failure(ErrorCode::kInvalidArgument,
                    "validity mask of " + size_text(valid.width(), valid.height()) +
@@ -391,6 +395,10 @@ Status RecordingProbe::add(ImageView<const std::uint16_t> frame, int bits,
   }
   return impl_->check(frame, bits).and_then([&]() -> Status {
     try {
+      impl_->counts_per_unit = counts_per_unit;
+      if (impl_->options.find_input_faults && counts_per_unit == 0) {
+        impl_->input_faults.add(frame, valid, bits);
+      }
       impl_->add(frame, valid);
     } catch (const std::bad_alloc&) {
       return failure(ErrorCode::kOutOfMemory, "not enough memory for a frame of " +

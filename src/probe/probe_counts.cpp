@@ -71,6 +71,11 @@ int CountTotals::quantile(double share) const {
   return static_cast<int>(count);
 }
 
+std::size_t CountTotals::distinct() const {
+  return static_cast<std::size_t>(std::count_if(pixels_.begin(), pixels_.end(),
+                                                [](std::int64_t pixels) { return pixels > 0; }));
+}
+
 CountHistogram CountTotals::histogram() const {
   constexpr int kMostBins = 256;
   constexpr int kMarginShare = 20;  // a 20th of the range on both sides

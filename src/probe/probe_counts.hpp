@@ -56,10 +56,12 @@ class CountTotals {
   CountTotals() : pixels_(kCountValues) {}
   void add(const SortedCounts& frame);
   [[nodiscard]] CountHistogram histogram() const;
+  // The count of rank floor(share (n - 1)).
+  [[nodiscard]] int quantile(double share) const;
+  // How many different counts there are.
+  [[nodiscard]] std::size_t distinct() const;
 
  private:
-  [[nodiscard]] int quantile(double share) const;
-
   std::vector<std::int64_t> pixels_;
   std::int64_t total_ = 0;
 };

@@ -50,6 +50,7 @@ double TiledNoise::add(ImageView<const std::uint16_t> frame) {
   lay_tiles(frame.width() - 2, frame.height() - 2);
   previous_residual_.swap(residual_);
   previous_slope_.swap(slope_);
+  previous_counts_.swap(counts_);
   filter(frame);
   double sum = 0;
   for (const Tile& tile : tiles_) {
@@ -83,6 +84,7 @@ void TiledNoise::lay_tiles(int width, int height) {
 void TiledNoise::filter(ImageView<const std::uint16_t> frame) {
   residual_.resize(frame.width() - 2, frame.height() - 2);
   slope_.resize(frame.width() - 2, frame.height() - 2);
+  counts_.resize(frame.width() - 2, frame.height() - 2);
   for (int y = 0; y < residual_.height(); ++y) {
     const std::uint16_t* above = frame.row(y);
     const std::uint16_t* row = frame.row(y + 1);
@@ -97,6 +99,7 @@ void TiledNoise::filter(ImageView<const std::uint16_t> frame) {
       const int gy =
           smoothed(under[x] - above[x], under[x + 1] - above[x + 1], under[x + 2] - above[x + 2]);
       slope_(x, y) = std::abs(gx) + std::abs(gy);
+      counts_(x, y) = row[x + 1];
     }
   }
 }
@@ -124,10 +127,33 @@ double TiledNoise::tile_variance(const Tile& tile, double gain, F&& value) {
   return std::max(squared(sigma_of_magnitudes(magnitudes_) / gain) - kRoundingVariance, 0.0);
 }
 
+// The mixed second difference of the change at the lag, and the largest slope at its four corners
+// in both frames.
+void TiledNoise::fill_change() {
+  const int width = counts_.width();
+  const int height = counts_.height();
+  change_.resize(width, height);
+  change_slope_.resize(width, height);
+  const int lag = std::min({tuning_.change_lag_px, width / 2, height / 2});
+  const auto change = [&](int x, int y) { return counts_(x, y) - previous_counts_(x, y); };
+  const auto slope = [&](int x, int y) { return std::max(slope_(x, y), previous_slope_(x, y)); };
+  for (int y = 0; y < height; ++y) {
+    const int other_y = y + lag < height ? y + lag : y - lag;
+    for (int x = 0; x < width; ++x) {
+      const int other_x = x + lag < width ? x + lag : x - lag;
+      change_(x, y) =
+          change(x, y) - change(other_x, y) - change(x, other_y) + change(other_x, other_y);
+      change_slope_(x, y) = std::max(std::max(slope(x, y), slope(other_x, y)),
+                                     std::max(slope(x, other_y), slope(other_x, other_y)));
+    }
+  }
+}
+
 void TiledNoise::add_change() {
   if (previous_residual_.empty()) {
     return;
   }
+  fill_change();
   for (int y = 0; y < slope_.height(); ++y) {
     std::transform(slope_.row(y), slope_.row(y) + slope_.width(), previous_slope_.row(y),
                    previous_slope_.row(y),
@@ -135,12 +161,35 @@ void TiledNoise::add_change() {
   }
   slope_.swap(previous_slope_);  // flat is what is flat in both
   double sum = 0;
-  for (const Tile& tile : tiles_) {
-    sum += tile_variance(tile, kResidualGain * std::sqrt(2.0),
-                         [&](int x, int y) { return residual_(x, y) - previous_residual_(x, y); });
+  for (Tile& tile : tiles_) {
+    const double variance = tile_variance(tile, kResidualGain * std::sqrt(2.0), [&](int x, int y) {
+      return residual_(x, y) - previous_residual_(x, y);
+    });
+    tile.residual_variances += variance;
+    sum += variance;
   }
   slope_.swap(previous_slope_);
+  slope_.swap(change_slope_);
+  for (Tile& tile : tiles_) {
+    tile.change_variances += tile_variance(tile, 2 * std::sqrt(2.0),  // of 4 pixels in 2 frames
+                                           [&](int x, int y) { return change_(x, y); });
+  }
+  slope_.swap(change_slope_);
   temporal_.add(std::sqrt(sum / static_cast<double>(tiles_.size())));
+}
+
+// The variance of a pixel in units of that of the residual, both with the rounding in them. What
+// moves adds to the former, and most where there is most of it: the quieter quarter tells.
+double TiledNoise::likeness_of_neighbours() const {
+  const auto frames = static_cast<double>(temporal_.count());
+  std::vector<double> ratios;
+  for (const Tile& tile : tiles_) {
+    ratios.push_back((tile.change_variances / frames + kRoundingVariance) /
+                     (tile.residual_variances / frames + kRoundingVariance));
+  }
+  const auto quarter = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 4);
+  std::nth_element(ratios.begin(), quarter, ratios.end());
+  return std::max(*quarter, 1.0);
 }
 
 void TiledNoise::add_to_pattern() {
@@ -164,7 +213,11 @@ void TiledNoise::add_to_pattern() {
 }
 
 std::optional<double> TiledNoise::temporal_sigma_counts() const {
-  return temporal_.count() > 0 ? std::optional(temporal_.value()) : std::nullopt;
+  if (temporal_.count() == 0) {
+    return std::nullopt;
+  }
+  const double of_residual = squared(temporal_.value()) + kRoundingVariance;
+  return std::sqrt(std::max(likeness_of_neighbours() * of_residual - kRoundingVariance, 0.0));
 }
 
 std::optional<TiledNoise::Pattern> TiledNoise::pattern() const {

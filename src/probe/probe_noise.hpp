@@ -22,6 +22,7 @@ struct TiledNoiseTuning {
   int smallest_side_px = 8;  // shorter sides give no noise: the median is of too few pixels
   int tile_side_px = 32;  // about: a smaller one follows uneven noise closer, with less precision
   int least_pattern_frames = 4;  // with the scene moved: fewer leave too much of it in the maps
+  int change_lag_px = 4;         // at which pixels of a camera that averages have nothing in common
   // A residual beyond this many sigma counts as this: an edge that passes is no pattern.
   double pattern_clip_sigmas = 4;
 };
@@ -51,9 +52,13 @@ class TiledNoise {
   // Of the residuals. A tile covers the whole frame where that is smaller.
   struct Tile {
     int x, y, width, height;
+    // Of the changes, added up over the frames, counts^2: of the residual, and at the lag.
+    double residual_variances = 0, change_variances = 0;
   };
   void lay_tiles(int width, int height);
   void filter(ImageView<const std::uint16_t> frame);
+  void fill_change();
+  [[nodiscard]] double likeness_of_neighbours() const;
   template <class F>
   double tile_variance(const Tile& tile, double gain, F&& value);
 
@@ -61,6 +66,8 @@ class TiledNoise {
   std::vector<Tile> tiles_;
   Image<std::int32_t> residual_, previous_residual_;  // 6 times the noise, signed
   Image<std::int32_t> slope_, previous_slope_;        // |gx| + |gy| by Sobel
+  Image<std::int32_t> counts_, previous_counts_;      // of the pixels that have a residual
+  Image<std::int32_t> change_, change_slope_;         // scratch of add_change()
   std::vector<std::int32_t> slopes_, magnitudes_;
   double last_sigma_ = 0;
   Mean spatial_, temporal_;

@@ -95,9 +95,10 @@ std::vector<SuggestedOption> suggest_options(const RecordingReport& report, Pres
   const double scale =
       static_cast<double>(report.width + report.height) / (kPaperWidth + kPaperHeight);
   if (paper != nullptr && scale < tuning.small_frame_scale) {
-    options.push_back({"contours.min_component_px",
-                       number(std::round(paper->contours.min_component_px * scale), 0),
-                       "in proportion to the size of the frames"});
+    options.push_back(
+        {"contours.min_component_px",
+         number(std::max(std::round(paper->contours.min_component_px * scale), 1.0), 0),
+         "in proportion to the size of the frames"});
   }
   return options;
 }

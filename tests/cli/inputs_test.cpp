@@ -176,7 +176,7 @@ TEST_F(Inputs, ResultsAreNamedAfterTheirFrames) {
   EXPECT_EQ(files_in("detect"),
             (Files{"svg/x.svg", "svg/x_2.svg", "svg/desk_0000.svg", "svg/desk_0001.svg",
                    "json/x.json", "json/x_2.json", "json/desk_0000.json", "json/desk_0001.json"}));
-  ASSERT_EQ(output_of("trace" + inputs + "-o trace"), "");
+  ASSERT_EQ(output_of("trace --threshold 1" + inputs + "-o trace"), "");
   EXPECT_EQ(files_in("trace"),
             (Files{"mask/x.png", "mask/x_2.png", "mask/desk_0000.png", "mask/desk_0001.png"}));
   ASSERT_EQ(output_of("compare --set denoise.method=none --panel-px 100 --format svg --write log"
@@ -215,7 +215,7 @@ TEST_F(Inputs, EndingsThatAreNotWrittenAreErrors) {
        {Case{"scale --gain 0.1", ".png, .tif, .tiff, .pgm, .npy or .raw"},
         {"denoise --method gaussian", ".png, .tif, .tiff, .pgm, .npy or .raw"},
         {"detect --denoise none", ".png, .json, .jsonl, .csv or .svg"},
-        {"trace", ".png, .json, .jsonl, .csv or .svg"},
+        {"trace --threshold 1", ".png, .json, .jsonl, .csv or .svg"},
         {"stages --panel-px 100 --denoise none", ".png, .svg or .pdf"},
         {"compare --panel-px 100 --set denoise.method=none", ".png, .svg or .pdf"}}) {
     const auto result = run(c.command + " frame.png -o x.jpg");

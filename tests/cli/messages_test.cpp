@@ -31,8 +31,8 @@ class Messages : public ProgramTest {
 
 TEST_F(Messages, UnknownWordsAreBadUsage) {
   std::vector<BadCase> cases = {
-      {"", 2, "subcommand"},
-      {"detekt frame.pgm", 2, "detekt: no such command; there are detect"},
+      {"", 2, "a command is missing; there are detect, trace"},
+      {"detekt frame.pgm", 2, "detekt: no such command; did you mean detect?"},
       {"--magic", 2, "--magic: no such command"}};
   for (const std::string command : kCommands) {
     cases.push_back({command + " frame.pgm -o x --magic", 2, "--magic"});

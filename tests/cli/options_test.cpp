@@ -227,8 +227,8 @@ TEST_F(Options, AFileOfOptionsIsCheckedLikeThem) {
        {Case{"preset = \"magic\"\n", 2, "preset = 'magic' is none of robust, fast, paper"},
         {"[selection]\nkeep_edges = \"many\"\n", 2, "line 2: selection.keep_edges = 'many'"},
         {"[selection]\nkeep_edges = -1\n", 2, "selection.keep_edges = -1 is out of range"},
-        {"[canny]\nhigh_share = 0.5\n", 2, "unknown option 'canny'"},
-        {"[nonsense]\nx = 1\n", 2, "line 1: unknown option nonsense"},
+        {"[canny]\nhigh_share = 0.5\n", 2, "line 1: unknown option 'canny': preset"},
+        {"[nonsense]\nx = 1\n", 2, "line 1: unknown option 'nonsense'"},
         {"keep = [1\n", 1, "line 1: not TOML"}}) {
     const std::string name = "bad" + std::to_string(cases.size()) + ".toml";
     write_text(path(name), file.text);

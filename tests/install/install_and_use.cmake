@@ -63,3 +63,16 @@ run_or_stop(${WORK_DIR}/examples/detect ${WORK_DIR}/frame.pgm)
 if(NOT output MATCHES "^edge 0: [0-9]+ px, [0-9]+ counts of contrast, open\n$")
   message(FATAL_ERROR "the example printed '${output}'")
 endif()
+
+# The program with its pages and completions.
+if(PROGRAM)
+  run_or_stop(${CMAKE_COMMAND} --install ${BUILD_DIR} --prefix ${prefix} --component program)
+  run_or_stop(${prefix}/bin/thermedge --version)
+  foreach(page man/man1/thermedge.1 man/man1/thermedge-detect.1
+      bash-completion/completions/thermedge zsh/site-functions/_thermedge
+      fish/vendor_completions.d/thermedge.fish)
+    if(NOT EXISTS ${prefix}/share/${page})
+      message(FATAL_ERROR "share/${page} was not installed")
+    endif()
+  endforeach()
+endif()

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace thermedge::io {
 namespace {
 
@@ -61,8 +63,10 @@ TEST_P(BadConfigs, AreRefusedWithFileAndKeyAndChangeNothing) {
 INSTANTIATE_TEST_SUITE_P(
     All, BadConfigs,
     testing::Values(
-        BadConfig{"[canny]\nlow = 1\n", "robot.toml: line 2: unknown option canny.low"},
-        BadConfig{"[cany]\n", "robot.toml: line 1: unknown option cany"},
+        BadConfig{"[canny]\nlow = 1\n",
+                  "robot.toml: line 2: unknown option 'canny.low'; did you mean "
+                  "canny.low_over_high?"},
+        BadConfig{"[cany]\n", "robot.toml: line 1: unknown option 'cany'; did you mean canny?"},
         BadConfig{"[contours]\ngap_px = 1.5\n",
                   "robot.toml: line 2: contours.gap_px = 1.5 should be a whole number"},
         BadConfig{"[contours]\ngap_px = 99\n",
@@ -93,7 +97,8 @@ TEST(Config, NamesAFileThatIsNotThere) {
   DetectorOptions options(Preset::kPaper);
   const Status status = load_config("/nowhere/robot.toml", PresetChoice::kFree, options);
   ASSERT_FALSE(status);
-  EXPECT_EQ(status.error().message, "/nowhere/robot.toml: cannot be read as a configuration file");
+  EXPECT_EQ(status.error().message,
+            "/nowhere/robot.toml: no such file; should be a TOML file of options");
 }
 
 TEST(Setting, SetsEachKindOfOption) {
@@ -192,7 +197,7 @@ TEST(Setting, RefusesWhatIsNotAnOption) {
   EXPECT_EQ(setting_error("contours.gap_px"), "'contours.gap_px' should read stage.option=value");
   EXPECT_EQ(setting_error("magic=1"), "unknown option 'magic'; --dump-config lists all options");
   EXPECT_EQ(setting_error("link.gap_px=1"),
-            "unknown option 'link.gap_px'; did you mean contours.gap_px, linking.gap_px?");
+            "unknown option 'link.gap_px'; did you mean linking.gap_px?");
   EXPECT_EQ(setting_error("contours.gap_px=two"), "contours.gap_px = two should be a whole number");
   EXPECT_EQ(setting_error("contours.gap_px=2x"), "contours.gap_px = 2x should be a whole number");
   EXPECT_EQ(setting_error("linking.gap_px=33"), "linking.gap_px = 33 is out of range: 0 to 32");
@@ -219,16 +224,48 @@ TEST(Setting, CannotForgeThePreset) {
   EXPECT_EQ(options.preset(), Preset::kRobust);
 }
 
-TEST(Config, APresetInTheFileThatDiffersFromAFixedOneIsRefused) {
+TEST(Config, OfAFileForAnotherPresetOnlyItsChangesAreTaken) {
+  DetectorOptions changed(Preset::kRobust);
+  changed.selection.keep_edges = 9;
+  changed.selection.min_contrast = {2.5, ContrastUnit::kSigma};
+  changed.robust()->graph.min_length_px = 12;
   DetectorOptions options(Preset::kFast);
-  EXPECT_TRUE(parse_config("preset = \"fast\"\n", "f.toml", PresetChoice::kFixed, options));
-  const Status status =
-      parse_config("preset = \"paper\"\n", "f.toml", PresetChoice::kFixed, options);
+  ASSERT_TRUE(parse_config(dump_config(changed), "f.toml", PresetChoice::kFixed, options));
+  DetectorOptions wanted(Preset::kFast);
+  wanted.selection.keep_edges = 9;
+  wanted.selection.min_contrast = {2.5, ContrastUnit::kSigma};
+  wanted.robust()->graph.min_length_px = 12;
+  EXPECT_EQ(dump_config(options), dump_config(wanted));
+
+  DetectorOptions paper(Preset::kPaper);
+  const Status status = parse_config(dump_config(changed), "f.toml", PresetChoice::kFixed, paper);
   ASSERT_FALSE(status);
   EXPECT_EQ(status.error().message,
-            "f.toml: preset = \"paper\", but --preset fast was given; leave one of them out");
+            "f.toml: unknown option 'graph.min_length_px': preset paper does not use it, preset "
+            "robust does");
+  EXPECT_EQ(dump_config(paper), dump_config(DetectorOptions(Preset::kPaper)));
+
   ASSERT_TRUE(parse_config("preset = \"paper\"\n", "f.toml", PresetChoice::kFree, options));
   EXPECT_EQ(options.preset(), Preset::kPaper);
+}
+
+TEST(Config, ListsEveryOptionOnce) {
+  const std::vector<OptionInfo> options = list_options();
+  for (std::size_t i = 0; i < options.size(); ++i) {
+    EXPECT_FALSE(options[i].help.empty()) << options[i].name;
+    for (std::size_t j = 0; j < i; ++j) {
+      EXPECT_NE(options[i].name, options[j].name);
+    }
+  }
+  const auto find = [&](const std::string& name) {
+    return *std::find_if(options.begin(), options.end(),
+                         [&](const OptionInfo& option) { return option.name == name; });
+  };
+  EXPECT_EQ(find("denoise.method").choices,
+            (std::vector<std::string>{"none", "gaussian", "nlm", "bm3d"}));
+  EXPECT_EQ(find("denoise.method").value, "bm3d");
+  EXPECT_EQ(find("bad_pixels.replace").choices, (std::vector<std::string>{"true", "false"}));
+  EXPECT_EQ(find("canny.low_over_high").choices.size(), 0U);
 }
 
 TEST(Options, OfADenoiserThatIsNotTheChosenOneAreRefused) {

@@ -5,6 +5,7 @@
 
 #include "support/recordings.hpp"
 #include "thermedge/detector.hpp"
+#include "thermedge/io/config.hpp"
 #include "thermedge/io/probe_file.hpp"
 #include "thermedge/stages/noise.hpp"
 
@@ -37,6 +38,43 @@ std::vector<Image<std::uint16_t>> moving(int frames, double sigma, double patter
                                   static_cast<unsigned>(recording.size())));
   }
   return recording;
+}
+
+// Frames of noise alone, and what is done to them.
+using Frames = std::vector<Image<std::uint16_t>>;
+
+Frames noise_frames_of(double sigma, unsigned seed) {
+  Frames frames;
+  frames.push_back(test::noise_image<std::uint16_t>(240, 200, 3000, sigma, seed));
+  return frames;
+}
+
+Frames noise_frames(double sigma) {
+  Frames frames;
+  for (unsigned i = 0; i < 2; ++i) {
+    frames.push_back(test::noise_image<std::uint16_t>(240, 200, 3000, sigma, 31 + i));
+  }
+  return frames;
+}
+
+// Means of `side` x `side` pixels.
+Frames blurred(const Frames& frames, int side) {
+  Frames out;
+  for (const auto& frame : frames) {
+    Image<std::uint16_t>& made = out.emplace_back(frame.width(), frame.height());
+    for (int y = 0; y < frame.height(); ++y) {
+      for (int x = 0; x < frame.width(); ++x) {
+        int sum = 0;
+        for (int v = 0; v < side; ++v) {
+          for (int u = 0; u < side; ++u) {
+            sum += frame(std::min(x + u, frame.width() - 1), std::min(y + v, frame.height() - 1));
+          }
+        }
+        made(x, y) = static_cast<std::uint16_t>((sum + side * side / 2) / (side * side));
+      }
+    }
+  }
+  return out;
 }
 
 class ProbeOfScene : public testing::TestWithParam<const char*> {};
@@ -85,6 +123,59 @@ TEST(Probe, TellsTheFixedPatternFromTemporalNoise) {
   }
 }
 
+// As cameras send them that enlarge or smooth their picture: neighbours are alike, and the noise of
+// a pixel is what differences of frames show.
+TEST(Probe, TemporalNoiseIsThatOfAPixelThoughACameraRepeatsOrAveragesThem) {
+  const auto clean = clean_frames("sim:desk?width=256&height=192&frames=4");
+  const auto repeated = [](const Image<std::uint16_t>& frame, int side) {
+    Image<std::uint16_t> out(frame.width(), frame.height());
+    for (int y = 0; y < out.height(); ++y) {
+      for (int x = 0; x < out.width(); ++x) {
+        out(x, y) = frame(x / side * side, y / side * side);
+      }
+    }
+    return out;
+  };
+  const auto averaged = [](const Image<std::uint16_t>& frame, int side) {
+    Image<std::uint16_t> out(frame.width(), frame.height());
+    for (int y = 0; y < out.height(); ++y) {
+      for (int x = 0; x < out.width(); ++x) {
+        int sum = 0;
+        for (int k = 0; k < side * side; ++k) {
+          sum += frame(std::min(x + k % side, out.width() - 1),
+                       std::min(y + k / side, out.height() - 1));
+        }
+        out(x, y) = static_cast<std::uint16_t>((sum + side * side / 2) / (side * side));
+      }
+    }
+    return out;
+  };
+  for (const bool is_moving : {false, true}) {
+    for (const int side : {1, 2, 3, 4}) {
+      for (const bool is_averaged : {false, true}) {
+        RecordingProbe recording;
+        for (unsigned i = 0; i < 4; ++i) {
+          const auto frame =
+              add_noise(clean[is_moving ? i : 0].view(), even(is_averaged ? 4 * side : 4), 0, i);
+          ASSERT_TRUE(recording.add(is_averaged ? averaged(frame, side) : repeated(frame, side)));
+        }
+        EXPECT_NEAR(recording.report().temporal_sigma_counts.value_or(0), 4, 0.5)
+            << is_moving << side << is_averaged;
+      }
+    }
+  }
+}
+
+// Noise below a count, which rounding hides from residuals.
+TEST(Probe, TemporalNoiseOfACameraThatAveragesIsRightBelowACount) {
+  RecordingProbe recording;
+  for (unsigned i = 0; i < 6; ++i) {
+    const auto frames = blurred(noise_frames_of(2.6, 300 + i), 3);
+    ASSERT_TRUE(recording.add(frames[0]));
+  }
+  EXPECT_NEAR(recording.report().temporal_sigma_counts.value_or(0), 2.6 / 3, 0.1);
+}
+
 TEST(Probe, OfACameraAtRestLeavesTheFixedPatternOpen) {
   const auto clean = clean_frames("sim:desk?frames=1");
   std::vector<Image<std::uint16_t>> frames;
@@ -125,37 +216,6 @@ TEST(Probe, OfUnevenNoiseGivesItsRootMeanSquareAndItsMap) {
     EXPECT_NEAR(sigmas[1], 8, 1.6);
     EXPECT_NEAR(sigmas[map.columns - 2], 15, 3);
   }
-}
-
-// Frames of noise alone, and what is done to them.
-using Frames = std::vector<Image<std::uint16_t>>;
-
-Frames noise_frames(double sigma) {
-  Frames frames;
-  for (unsigned i = 0; i < 2; ++i) {
-    frames.push_back(test::noise_image<std::uint16_t>(240, 200, 3000, sigma, 31 + i));
-  }
-  return frames;
-}
-
-// Means of `side` x `side` pixels.
-Frames blurred(const Frames& frames, int side) {
-  Frames out;
-  for (const auto& frame : frames) {
-    Image<std::uint16_t>& made = out.emplace_back(frame.width(), frame.height());
-    for (int y = 0; y < frame.height(); ++y) {
-      for (int x = 0; x < frame.width(); ++x) {
-        int sum = 0;
-        for (int v = 0; v < side; ++v) {
-          for (int u = 0; u < side; ++u) {
-            sum += frame(std::min(x + u, frame.width() - 1), std::min(y + v, frame.height() - 1));
-          }
-        }
-        made(x, y) = static_cast<std::uint16_t>((sum + side * side / 2) / (side * side));
-      }
-    }
-  }
-  return out;
 }
 
 // Four times the noise in the right half.
@@ -360,7 +420,7 @@ TEST(Probe, Of8BitPicturesSuggestsNoGain) {
 
 TEST(Probe, OfConstantFramesFindsNothing) {
   Image<std::uint16_t> frame(64, 48);
-  fill_pixels(frame.view(), std::uint16_t{3000});
+  fill_pixels(frame.view(), std::uint16_t{3008});
   std::vector<Image<std::uint16_t>> frames;
   frames.push_back(frame.clone());
   frames.push_back(frame.clone());
@@ -372,6 +432,89 @@ TEST(Probe, OfConstantFramesFindsNothing) {
   EXPECT_EQ(report.repeated_frames, 2);
   EXPECT_EQ(report.clipped_share(0.5), 0);
   EXPECT_EQ(report.flicker_counts, 0);
+  EXPECT_EQ(report.unused_low_bits, 0) << "one count tells nothing of a shift";
+}
+
+RecordingReport probe_by(const ProbeOptions& options, const Frames& frames) {
+  RecordingProbe recording(options);
+  for (const auto& frame : frames) {
+    EXPECT_TRUE(recording.add(frame));
+  }
+  return recording.report();
+}
+
+ProbeOptions with_camera(const std::string& name) {
+  ProbeOptions options;
+  options.camera = *parse_counts_model(name);
+  options.camera_source =
+      name.find(':') == std::string::npos ? CameraSource::kName : CameraSource::kNumbers;
+  return options;
+}
+
+// The counts of the desk are hundredths of a degree.
+TEST(Probe, TellsTemperaturesOnlyWhereTheCameraFits) {
+  const Frames desk = scene_frames("sim:desk?frames=1");
+  for (const std::string wrong : {"optris", "lepton", "lepton-0.1"}) {
+    const auto report = probe_by(with_camera(wrong), desk);
+    EXPECT_TRUE(report.is_degc_implausible) << wrong;
+    EXPECT_FALSE(report.min_degc || report.max_degc) << wrong;
+    EXPECT_LT(report.implausible_degc[0], report.implausible_degc[1]);
+  }
+  const auto report = probe_by(with_camera("optris"), desk);
+  EXPECT_GT(report.implausible_degc[0], 100) << "a desk";
+  for (const std::string right : {"linear", "linear:0.01,0", "linear:0.1,-100"}) {
+    const auto fitting = probe_by(with_camera(right), desk);
+    EXPECT_FALSE(fitting.is_degc_implausible) << right;
+    EXPECT_EQ(fitting.min_degc, parse_counts_model(right)->to_degc(fitting.min_counts));
+  }
+  EXPECT_TRUE(probe_by(with_camera("linear:0.01,-400"), desk).is_degc_implausible)
+      << "below absolute zero";
+  EXPECT_TRUE(probe_by({}, desk).is_degc_assumed);
+  EXPECT_FALSE(report.is_degc_assumed);
+}
+
+// A camera at a furnace: hot, but with the noise of a camera.
+TEST(Probe, BelievesACameraWhoseScaleIsGivenInNumbers) {
+  Frames furnace;
+  furnace.push_back(noise_image<std::uint16_t>(96, 72, 7000, 1, 3));
+  EXPECT_TRUE(probe_by(with_camera("optris"), furnace).is_degc_implausible);
+  const auto report = probe_by(with_camera("linear:0.1,-100"), furnace);
+  EXPECT_NEAR(report.min_degc.value_or(0), 600, 1);
+}
+
+// What each preset would do with each suggestion for recordings of every kind.
+TEST(Probe, EverySuggestionIsTakenAndChangesSomething) {
+  std::vector<Frames> recordings;
+  for (const std::string scene :
+       {"sim:desk?frames=3", "sim:desk?frames=3&width=96&height=72",
+        "sim:desk?frames=3&width=20&height=16", "sim:corridor?frames=3&sigma=40",
+        "sim:desk?frames=3&column_sigma=30&row_sigma=20",
+        "sim:desk?frames=3&flickering_pixels=3000", "sim:road?frames=3&camera=boson",
+        "sim:empty?frames=3&sigma=0.3"}) {
+    recordings.push_back(scene_frames(scene));
+  }
+  recordings.push_back(uneven(noise_frames(5)));
+  recordings.push_back(uneven(noise_frames(500)));
+  std::size_t suggestions = 0;
+  for (const Preset preset : {Preset::kRobust, Preset::kFast, Preset::kPaper}) {
+    const DetectorOptions usual(preset);
+    for (const Frames& frames : recordings) {
+      const RecordingReport report = probe_for(preset, frames);
+      DetectorOptions all = usual;
+      for (const SuggestedOption& option : report.suggested) {
+        DetectorOptions changed = usual;
+        const std::string setting = option.name + "=" + option.value;
+        const Status status = io::apply_setting(setting, changed);
+        ASSERT_TRUE(status) << preset_name(preset) << ": " << status.error().message;
+        EXPECT_TRUE(changed.check()) << setting;
+        EXPECT_NE(io::dump_config(changed), io::dump_config(usual)) << setting;
+        EXPECT_TRUE(io::apply_setting(setting, all));
+        ++suggestions;
+      }
+      EXPECT_TRUE(Detector::create(all)) << preset_name(preset);
+    }
+  }
+  EXPECT_GT(suggestions, 10U);
 }
 
 TEST(Probe, OfTinyFramesDoesNotMeasureNoise) {

@@ -106,7 +106,7 @@ TEST_F(Simulate, SaysWhatIsWrong) {
              "centre_m = [0, 2, 0]\nradius_m = 0.3\ntemperature_degc = -280\n");
   write_text(directory_ / "file", "");
   expect_one_line_each(
-      {{"simulate moon -o out", 2, "moon: no such scene; there are desk, corridor"},
+      {{"simulate moon -o out", 1, "moon: no such scene; there are desk, corridor"},
        {"simulate missing.toml -o out", 1, "missing.toml: cannot be read as a scene file"},
        {"simulate cold.toml -o out", 1, "cold.toml: object '1': temperature_degc = -280"},
        {"simulate desk -o out --set colour=1", 2, "unknown key 'colour'"},

@@ -3,6 +3,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "thermedge/io/source.hpp"
 #include "thermedge/result.hpp"
@@ -19,6 +20,9 @@ namespace thermedge::io {
 // is unchanged then. Thread-safe.
 [[nodiscard]] Status set_source_option(std::string_view key, std::string_view text,
                                        SourceOptions& options);
+
+// Their names, in this order.
+[[nodiscard]] std::vector<std::string> source_option_names();
 
 // All of them as a TOML table, each with its meaning as a comment.
 [[nodiscard]] std::string dump_source_options(const SourceOptions& options);

@@ -22,12 +22,21 @@
 
 namespace thermedge {
 
+// Where the response of a camera comes from: how far it can be trusted to be that of the recording.
+enum class CameraSource {
+  kName,    // one of camera_models(): temperatures and noise that no usual scene has are doubted
+  kNumbers  // given for the recording, or stored with it: doubted where it gives no temperature
+};
+
 struct ProbeOptions {
-  double degc_per_count = kDegcPerCount;  // worth of a count, degC, > 0 (paper section 2.3)
-  std::optional<CountsModel> camera;      // instead of it, where known: tells temperatures too
-  ValidityOptions validity;               // whether pixels that are no measurement are looked for
-  BadPixelOptions bad_pixels;             // the rule for bad pixels
-  Preset preset = Preset::kRobust;        // whose options are suggested
+  // Worth of a count, degC, > 0; not given: kDegcPerCount is assumed (paper section 2.3).
+  std::optional<double> degc_per_count;
+  std::optional<CountsModel> camera;  // instead of it, where known: tells temperatures too
+  CameraSource camera_source = CameraSource::kName;
+  bool find_input_faults = true;  // whether the frames are as read, so that `input` means something
+  ValidityOptions validity;       // whether pixels that are no measurement are looked for
+  BadPixelOptions bad_pixels;     // the rule for bad pixels
+  Preset preset = Preset::kRobust;  // whose options are suggested
 };
 
 // Counts of all frames: bin i holds the pixels with edges_counts[i] <= count < edges_counts[i + 1].
@@ -79,6 +88,14 @@ struct GainClipping {
   double share = 0;
 };
 
+// Frames that are not as the camera meant them, and the option of the input that mends them.
+struct InputFault {
+  std::string flag;    // "--crop"
+  std::string option;  // "source.crop"; empty where there is the flag alone
+  std::string value;   // of both
+  std::string reason;  // in at most 60 characters
+};
+
 // One option of the detector as `--set name=value` takes it, and why it is suggested.
 struct SuggestedOption {
   std::string name, value, reason;
@@ -96,9 +113,13 @@ struct SuggestedOption {
 // NoiseEstimator; of simulated halves with 8 and 15 counts (root mean square 12.0) the tiles
 // give 11.8 and NoiseEstimator 9.6. Where noise is even they agree.
 //
-// Temporal sigma: the same of the difference of successive residuals, over sqrt 2. The residual
-// hardly sees a scene that moves smoothly, and the flatter halves and the median leave out edges
-// that move. A camera that averages over time shows less here than it has.
+// Temporal sigma: of the difference of successive residuals, over sqrt 2. The residual hardly sees
+// a scene that moves smoothly, and the flatter halves and the median leave out edges that move.
+// Where a camera repeats or averages pixels, neighbours are alike and the residual is small. So it
+// is multiplied by the ratio of the noise of a pixel and of the residual, of the difference D of
+// successive frames: the former from D(x, y) - D(x + 4, y) - D(x, y + 4) + D(x + 4, y + 4), whose
+// pixels have nothing in common, by the quarter of the tiles with the smallest ratio, because what
+// moves adds to it. A camera that averages over time shows less here than it has.
 //
 // Fixed pattern: two maps of mean residuals, of every other frame in which the scene had moved; the
 // noise in the two is independent, so (var(a + b) - var(a - b)) / 4 is the variance of the offsets
@@ -109,11 +130,19 @@ struct SuggestedOption {
 // the other frames (28 %, tried: 24 %).
 struct RecordingReport {
   std::int64_t frames = 0;
-  int width = 0, height = 0;  // px
-  int container_bits = 0;     // 8 or 16
-  int used_bits = 0;          // up to the highest bit that is ever set
-  int unused_low_bits = 0;    // 2: all counts are multiples of 4
-  double degc_per_count = 0;  // of a camera model: in the middle of the range
+  int width = 0, height = 0;     // px
+  int container_bits = 0;        // 8 or 16
+  int used_bits = 0;             // up to the highest bit that is ever set
+  int unused_low_bits = 0;       // 2: all counts are multiples of 4
+  double degc_per_count = 0;     // of a camera model: in the middle of the range
+  bool is_degc_assumed = false;  // nobody told the worth of a count
+  // The camera's response gives temperatures, or a noise, that this recording can't have: then
+  // there are no others in degC.
+  bool is_degc_implausible = false;
+  std::array<double, 2> implausible_degc{};  // 1st to 99th percentile of all frames
+  double implausible_sigma_degc = 0;
+  CameraSource camera_source = CameraSource::kName;
+  std::vector<InputFault> input;  // faults that all of the first 8 frames have
 
   // Range, counts.
   int min_counts = 0, max_counts = 0;        // of all frames
@@ -127,12 +156,15 @@ struct RecordingReport {
   // What the detector's result says of these frames (Detection::sigma_counts), mean over them:
   // presets robust and fast at the scale of edges, paper from pixel to pixel. 0: none to be told.
   double sigma_counts = 0;
+  // The same in the unit of float frames, which is what the detector tells of those: of the scale
+  // of the last one. Not there for counts.
+  std::optional<double> sigma_value;
   NoiseSpectrum spectrum = white_spectrum();  // of the same; 1 for white noise
   NoiseKind noise_kind = NoiseKind::kNone;
   NoiseMap noise_map;
   double pixel_sigma_counts = 0;  // from pixel to pixel: temporal and fixed together
   double frame_sigma_counts = 0;  // the same as NoiseEstimator measures it on each frame
-  std::optional<double> temporal_sigma_counts;       // needs two different frames
+  std::optional<double> temporal_sigma_counts;       // of a pixel; needs two different frames
   std::optional<double> fixed_pattern_sigma_counts;  // offsets of the pixels
   std::optional<double> fixed_pattern_share;         // of the variance from pixel to pixel
   // By how much an offset map would lower that sigma: learned from 8 frames,
@@ -195,6 +227,7 @@ struct ProbeTuning {
   std::int64_t shutter_repeats = 2;  // least repeats of a frame that a closed shutter makes; one
                                      // alone is a frame that came late
   std::int64_t least_frames_for_dead_pixels = 3;  // fewer do not tell lasting from passing
+  std::size_t least_values_for_shift = 4;         // different counts; fewer are multiples by chance
   double range_tail_share = 0.01;  // robust_range_counts leaves out this share at both ends, 0..0.5
   SuggestionTuning suggestions = {};
 };
@@ -211,9 +244,10 @@ class RecordingProbe {
 
   // `bits`: 8 or 16, of a pixel in the file. Errors, after which the recording goes on without the
   // frame: empty frame, another size or number of bits than the first, out of memory.
-  // `valid` as Frame::valid.
+  // `valid` as Frame::valid. `counts_per_unit`: of float frames, whose nearest counts `frame` then
+  // has (FloatScale); 0: the pixels are counts.
   [[nodiscard]] Status add(ImageView<const std::uint16_t> frame, int bits = 16,
-                           ImageView<const std::uint8_t> valid = {});
+                           ImageView<const std::uint8_t> valid = {}, double counts_per_unit = 0);
 
   // Of the frames so far; more may follow.
   [[nodiscard]] RecordingReport report() const;

@@ -4,6 +4,8 @@
 #include <array>
 #include <charconv>
 
+#include "thermedge/similar_names.hpp"
+
 namespace thermedge::io {
 namespace {
 
@@ -126,16 +128,28 @@ const std::array kOptions = {
 }  // namespace
 
 Status set_source_option(std::string_view key, std::string_view text, SourceOptions& options) {
-  std::string names;
   for (const Option& option : kOptions) {
     if (option.key == key) {
       SourceOptions changed = options;
       return option.set(text, changed).map([&] { options = changed; });
     }
-    names += (names.empty() ? "source." : ", source.") + std::string(option.key);
   }
-  return failure(ErrorCode::kInvalidArgument, "unknown option; there are " + names,
+  const std::vector<std::string> names = source_option_names();
+  const std::string meant = did_you_mean(key, names);
+  std::string list;
+  for (const std::string& name : names) {
+    list += (list.empty() ? "; there are source." : ", source.") + name;
+  }
+  return failure(ErrorCode::kInvalidArgument, "unknown option" + (meant.empty() ? list : meant),
                  "source." + std::string(key));
+}
+
+std::vector<std::string> source_option_names() {
+  std::vector<std::string> names;
+  for (const Option& option : kOptions) {
+    names.emplace_back(option.key);
+  }
+  return names;
 }
 
 std::string dump_source_options(const SourceOptions& options) {

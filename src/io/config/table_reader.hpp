@@ -74,6 +74,10 @@ Status wrong_type(const std::string& key, const std::string& text) {
                  key + " = " + text + " should be " + std::string(kind_of<T>()));
 }
 
+inline std::string unknown_option(const std::string& name) {
+  return "unknown option '" + name + "'";
+}
+
 // Sets fields from the nodes of a TOML table and ticks off the keys it knew.
 class TableReader {
  public:
@@ -135,10 +139,8 @@ class TableReader {
   Status finish() {
     for (const auto& [key, node] : table_) {
       if (std::find(taken_.begin(), taken_.end(), key.str()) == taken_.end()) {
-        keep(failure(ErrorCode::kInvalidArgument,
-                     "unknown option " + prefix_ + std::string(key.str()),
-                     prefix_ + std::string(key.str())),
-             &node);
+        const std::string name = prefix_ + std::string(key.str());
+        keep(failure(ErrorCode::kInvalidArgument, unknown_option(name), name), &node);
       }
     }
     return std::move(status_);

@@ -31,17 +31,29 @@ Json or_null(const std::optional<T>& value) {
   return value ? Json(*value) : Json(nullptr);
 }
 
+// Nothing where the response that was given does not fit.
+std::optional<double> in_degc(const RecordingReport& report, double counts) {
+  return report.is_degc_implausible ? std::nullopt : std::optional(counts * report.degc_per_count);
+}
+
+Json implausible_json(const RecordingReport& report) {
+  const auto [low, high] = report.implausible_degc;
+  return Json::array({rounded(low), rounded(high)});
+}
+
 Json range_json(const RecordingReport& report) {
-  const double degc = report.degc_per_count;
-  return {{"min_counts", report.min_counts},
-          {"max_counts", report.max_counts},
-          {"min_degc", rounded(report.min_degc)},
-          {"max_degc", rounded(report.max_degc)},
-          {"mean_counts", rounded(report.range_counts)},
-          {"mean_degc", rounded(report.range_counts * degc)},
-          {"p1_to_p99_counts", rounded(report.robust_range_counts)},
-          {"p1_to_p99_degc", rounded(report.robust_range_counts * degc)},
-          {"degc_per_level", rounded(degc_per_level(report.range_counts * degc))}};
+  const std::optional<double> mean = in_degc(report, report.range_counts);
+  return {
+      {"min_counts", report.min_counts},
+      {"max_counts", report.max_counts},
+      {"min_degc", rounded(report.min_degc)},
+      {"max_degc", rounded(report.max_degc)},
+      {"mean_counts", rounded(report.range_counts)},
+      {"implausible_degc", report.is_degc_implausible ? implausible_json(report) : Json(nullptr)},
+      {"mean_degc", rounded(mean)},
+      {"p1_to_p99_counts", rounded(report.robust_range_counts)},
+      {"p1_to_p99_degc", rounded(in_degc(report, report.robust_range_counts))},
+      {"degc_per_level", mean ? rounded(degc_per_level(*mean)) : Json(nullptr)}};
 }
 
 std::string_view name_of(NoiseKind kind) {
@@ -65,7 +77,8 @@ Json spectrum_json(const NoiseSpectrum& spectrum) {
 
 Json noise_json(const RecordingReport& report) {
   return {{"sigma_counts", rounded(report.sigma_counts)},
-          {"sigma_degc", rounded(report.sigma_counts * report.degc_per_count)},
+          {"sigma_value", rounded(report.sigma_value)},
+          {"sigma_degc", rounded(in_degc(report, report.sigma_counts))},
           {"kind", name_of(report.noise_kind)},
           {"spectrum", spectrum_json(report.spectrum)},
           {"pixel_sigma_counts", rounded(report.pixel_sigma_counts)},
@@ -117,53 +130,76 @@ Json suggested_json(const RecordingReport& report) {
   return list;
 }
 
+Json input_json(const RecordingReport& report) {
+  Json list = Json::array();
+  for (const InputFault& fault : report.input) {
+    list.push_back({{"flag", fault.flag}, {"value", fault.value}, {"reason", fault.reason}});
+  }
+  return list;
+}
+
+// Options of the input go into the file; a flag that no option stands for, into a comment.
+std::string input_toml(const RecordingReport& report) {
+  std::string text;
+  for (const InputFault& fault : report.input) {
+    text += "# " + fault.reason + "\n";
+    text += fault.option.empty() ? "# on the command line: " + fault.flag + " " + fault.value + "\n"
+                                 : fault.option + " = \"" + fault.value + "\"\n";
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string probe_to_json(const RecordingReport& report, const std::vector<std::string>& inputs) {
-  const Json document = {{"format_version", kFormatVersion},
-                         {"inputs", inputs},
-                         {"frames", report.frames},
-                         {"width", report.width},
-                         {"height", report.height},
-                         {"container_bits", report.container_bits},
-                         {"used_bits", report.used_bits},
-                         {"unused_low_bits", report.unused_low_bits},
-                         {"degc_per_count", report.degc_per_count},
-                         {"range", range_json(report)},
-                         {"noise", noise_json(report)},
-                         {"invalid_pixels_per_frame",
-                          {{"given", rounded(report.given_invalid_pixels)},
-                           {"found", rounded(report.found_invalid_pixels)},
-                           {"dead_rows", rounded(report.dead_rows)},
-                           {"dead_columns", rounded(report.dead_columns)}}},
-                         {"bad_pixels", or_null(report.bad_pixels)},
-                         {"passing_bad_pixels_per_frame", rounded(report.passing_bad_pixels)},
-                         {"clipping", clipping_json(report)},
-                         {"sequence", sequence_json(report)},
-                         {"suggested", suggested_json(report)},
-                         {"histogram",
-                          {{"edges_counts", report.histogram.edges_counts},
-                           {"pixels", report.histogram.pixels},
-                           {"below", report.histogram.below},
-                           {"above", report.histogram.above}}},
-                         {"noise_map",
-                          {{"columns", report.noise_map.columns},
-                           {"rows", report.noise_map.rows},
-                           {"sigma_counts", rounded(report.noise_map.sigma_counts)}}},
-                         {"column_profile_counts", rounded(report.column_profile_counts)},
-                         {"row_profile_counts", rounded(report.row_profile_counts)},
-                         {"series", series_json(report)}};
+  const Json document = {
+      {"format_version", kFormatVersion},
+      {"inputs", inputs},
+      {"frames", report.frames},
+      {"width", report.width},
+      {"height", report.height},
+      {"container_bits", report.container_bits},
+      {"used_bits", report.used_bits},
+      {"unused_low_bits", report.unused_low_bits},
+      {"degc_per_count", report.is_degc_implausible ? Json(nullptr) : Json(report.degc_per_count)},
+      {"degc_per_count_assumed", report.is_degc_assumed},
+      {"input", input_json(report)},
+      {"range", range_json(report)},
+      {"noise", noise_json(report)},
+      {"invalid_pixels_per_frame",
+       {{"given", rounded(report.given_invalid_pixels)},
+        {"found", rounded(report.found_invalid_pixels)},
+        {"dead_rows", rounded(report.dead_rows)},
+        {"dead_columns", rounded(report.dead_columns)}}},
+      {"bad_pixels", or_null(report.bad_pixels)},
+      {"passing_bad_pixels_per_frame", rounded(report.passing_bad_pixels)},
+      {"clipping", clipping_json(report)},
+      {"sequence", sequence_json(report)},
+      {"suggested", suggested_json(report)},
+      {"histogram",
+       {{"edges_counts", report.histogram.edges_counts},
+        {"pixels", report.histogram.pixels},
+        {"below", report.histogram.below},
+        {"above", report.histogram.above}}},
+      {"noise_map",
+       {{"columns", report.noise_map.columns},
+        {"rows", report.noise_map.rows},
+        {"sigma_counts", rounded(report.noise_map.sigma_counts)}}},
+      {"column_profile_counts", rounded(report.column_profile_counts)},
+      {"row_profile_counts", rounded(report.row_profile_counts)},
+      {"series", series_json(report)}};
   // A name that is not UTF-8 is shown with replacement characters rather than refused.
   return document.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 std::string suggested_toml(const RecordingReport& report) {
-  if (report.suggested.empty()) {
-    return "# The detector's defaults suit this recording.\n";
-  }
   std::string text;
   if (report.preset != DetectorOptions{}.preset()) {
     text = "preset = \"" + std::string(preset_name(report.preset)) + "\"\n";
+  }
+  text += input_toml(report);
+  if (report.suggested.empty()) {
+    return text + "# The detector's defaults suit this recording.\n";
   }
   for (const SuggestedOption& option : report.suggested) {
     text += "# " + option.reason + "\n" + option.name + " = " + option.value + "\n";
