@@ -1,0 +1,13 @@
+// Which true edge carries which identity, over a sequence.
+#pragma once
+
+#include <span>
+
+#include "track_frame.hpp"
+
+namespace thermedge::eval {
+
+[[nodiscard]] IdentityFigures measure_identities(std::span<const FrameFigures> frames,
+                                                 const TrackIndex& index);
+
+}  // namespace thermedge::eval
