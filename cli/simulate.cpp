@@ -186,7 +186,7 @@ void add_simulate(CLI::App& program, int& exit_code) {
       ->check(CLI::IsMember(sim::camera_names()))
       ->capture_default_str();
   app.add_option("--path", command->path, "how the camera moves")
-      ->check(CLI::IsMember({"hand", "drive", "pan", "still"}))
+      ->check(CLI::IsMember({"hand", "drive", "pan", "shake", "still"}))
       ->capture_default_str();
   app.add_option("--frames", command->frames, "number of frames (default 100)")
       ->check(CLI::Range(1, 1000000));
