@@ -25,6 +25,15 @@ void add_identities(const eval::IdentityFigures& figures, Page& page) {
                        figures.ids));
 }
 
+void add_gaps(const eval::GapFigures& gaps, Page& page) {
+  if (gaps.found_px > 0) {
+    page.row(
+        "after gaps", number(gaps.share(), 4),
+        fmt::format("of the true length has its identity from before; {} gap{} of frozen frames",
+                    gaps.gaps, gaps.gaps == 1 ? "" : "s"));
+  }
+}
+
 void add_hota(const eval::HotaFigures& figures, double reach_px, Page& page) {
   page.heading("Curve-HOTA, samples 1 px apart");
   page.line(fmt::format("  {:<20} {:>8} {:>8} {:>8} {:>8} {:>8}", "", "HOTA", "DetA", "AssA",
@@ -80,9 +89,30 @@ std::string page_of(const eval::TracksEvaluation& evaluation, const eval::Tracks
   page.heading(fmt::format("Identities, within {:g} px and {:g} degrees", options.reach_px,
                            options.most_angle_deg));
   add_identities(evaluation.identities, page);
+  add_gaps(evaluation.gaps, page);
   add_hota(evaluation.hota, options.reach_px, page);
   add_positions(evaluation, options.repeat_reach_px, page);
   add_events(evaluation, options.event_slack, page);
+  return page.take();
+}
+
+std::string page_of(const eval::TracksSummary& summary) {
+  Page page;
+  page.line(fmt::format("{} frame{}, {} invalid, without truth", summary.frames,
+                        summary.frames == 1 ? "" : "s", summary.invalid_frames));
+  page.heading("Identities");
+  page.row("labelled", number(summary.labelled_px / summary.found_px, 4),
+           "of the length of the edges has an identity");
+  page.row("aged", number(summary.aged_px / summary.found_px, 4),
+           "has one that was seen 5 frames before or earlier");
+  page.row("identities", fmt::format("{}", summary.ids),
+           fmt::format("half of them last {:.0f} frames or less", summary.median_life_frames));
+  if (!summary.events.empty()) {
+    page.heading("Events, frames that name them");
+    for (const auto& [kind, frames] : summary.events) {
+      page.row(kind, fmt::format("{}", frames), "");
+    }
+  }
   return page.take();
 }
 
@@ -90,8 +120,8 @@ std::string page_of(const eval::TracksEvaluation& evaluation, const eval::Tracks
 
 void TracksCommand::add_to(CLI::App& app) {
   CLI::Option* flag = app.add_flag("--tracks", on,
-                                   "PRED are tracks of a sequence, GT is truth.jsonl of simulate: "
-                                   "do edges keep their identities?");
+                                   "PRED are tracks of a sequence, GT, if any, is truth.jsonl of "
+                                   "simulate: do edges keep their identities?");
   for (const char* other :
        {"--at", "--thresholds", "--no-thin", "--max-dist", "--shift", "--empty"}) {
     flag->excludes(app.get_option(other));
@@ -114,7 +144,9 @@ Result<std::string> TracksCommand::run(const std::string& found, const std::stri
                                        double least_contrast_counts, double sigma_counts,
                                        int threads, bool json, Console& report) const {
   if (truth.empty()) {
-    return failure(ErrorCode::kInvalidArgument, "--tracks: needs GT, truth.jsonl of simulate");
+    return eval::summarise_tracks(found).map([&](const eval::TracksSummary& summary) {
+      return json ? eval::summary_to_json(summary, found) : found + ": " + page_of(summary);
+    });
   }
   eval::TracksOptions all = options;
   if (least_contrast_counts >= 0) {

@@ -67,7 +67,63 @@ void add_track(Length length, const std::map<Id, Length>& places, const std::set
   }
 }
 
+// Labels by visit over the frames [from, to).
+Table labels_in(std::span<const FrameFigures> frames, std::size_t from, std::size_t to) {
+  Table labels;
+  for (std::size_t i = from; i < std::min(to, frames.size()); ++i) {
+    add_to(labels, frames[i].labels);
+  }
+  return labels;
+}
+
+// The track with the most length; kNoTrack where there is none.
+Id main_track(const std::map<Id, Length>& labels) {
+  Id main = kNoTrack;
+  Length most = 0;
+  for (const auto& [track, length] : labels) {
+    if (track != kNoTrack && length > most) {
+      main = track;
+      most = length;
+    }
+  }
+  return main;
+}
+
+// The gap before frame `after`; the last frame before it is `before`.
+void add_gap(std::span<const FrameFigures> frames, std::size_t before, std::size_t after,
+             GapFigures& figures) {
+  constexpr std::size_t kBefore = 5;
+  constexpr std::size_t kSettle = 2;
+  constexpr std::size_t kAfter = 5;
+  const Table old = labels_in(frames, before + 1 - std::min(kBefore, before + 1), before + 1);
+  const Table now = labels_in(frames, after + kSettle, after + kSettle + kAfter);
+  ++figures.gaps;
+  for (const auto& [visit, labels] : now) {
+    const auto known = old.find(visit);
+    const Id main = known == old.end() ? kNoTrack : main_track(known->second);
+    if (main == kNoTrack) {
+      continue;
+    }
+    for (const auto& [track, length] : labels) {
+      figures.found_px += static_cast<double>(length);
+      figures.same_px += track == main ? static_cast<double>(length) : 0;
+    }
+  }
+}
+
 }  // namespace
+
+GapFigures measure_gaps(std::span<const FrameFigures> frames, const std::vector<bool>& counts) {
+  GapFigures figures;
+  std::size_t last = frames.size();  // that counts
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    if (counts[i] && last < i && i > last + 1) {
+      add_gap(frames, last, i, figures);
+    }
+    last = counts[i] ? i : last;
+  }
+  return figures;
+}
 
 double IdentityFigures::harmonic_mean() const {
   return 2 * kept() * purity() / (kept() + purity());

@@ -10,4 +10,8 @@ namespace thermedge::eval {
 [[nodiscard]] IdentityFigures measure_identities(std::span<const FrameFigures> frames,
                                                  const TrackIndex& index);
 
+// `counts`: whether each of the frames is a measurement.
+[[nodiscard]] GapFigures measure_gaps(std::span<const FrameFigures> frames,
+                                      const std::vector<bool>& counts);
+
 }  // namespace thermedge::eval

@@ -88,6 +88,7 @@ class Judge {
     TracksEvaluation evaluation;
     count_frames(evaluation);
     evaluation.identities = measure_identities(figures, index_);
+    evaluation.gaps = measure_gaps(figures, frames_that_count());
     evaluation.hota = measure_hota(samples_of(figures), runner_);
     MotionFigures motion;
     for (const MotionFigures& one : motions) {
@@ -108,8 +109,16 @@ class Judge {
     }
   }
 
+  [[nodiscard]] std::vector<bool> frames_that_count() const {
+    std::vector<bool> counts(frames_.size());
+    std::transform(frames_.begin(), frames_.end(), counts.begin(),
+                   [](const FramePair& frame) { return frame.counts(); });
+    return counts;
+  }
+
   static std::vector<const FrameSamples*> samples_of(const std::vector<FrameFigures>& figures) {
     std::vector<const FrameSamples*> samples;
+    samples.reserve(figures.size());
     for (const FrameFigures& frame : figures) {
       samples.push_back(&frame.samples);
     }
@@ -189,6 +198,13 @@ Result<TracksEvaluation> evaluate_tracks(const std::string& found_path,
     return tl::unexpected(truth.error());
   }
   return evaluate_tracks(*found, found_path, *truth, truth_path, options, runner);
+}
+
+Result<TracksSummary> summarise_tracks(const std::string& path) {
+  return io::catch_bad_alloc(path, [&] {
+    return read_frames<TrackedFrame>(path, parse_tracked_frame)
+        .map([](const std::vector<TrackedFrame>& frames) { return summarise_tracks(frames); });
+  });
 }
 
 }  // namespace thermedge::eval

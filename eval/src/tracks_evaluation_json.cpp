@@ -70,6 +70,10 @@ Ordered to_json(const std::vector<EventFigures>& events) {
   return list;
 }
 
+std::string line(const Ordered& document) {
+  return document.dump(-1, ' ', false, Ordered::error_handler_t::replace) + "\n";
+}
+
 }  // namespace
 
 std::string evaluation_to_json(const TracksEvaluation& evaluation, const std::string& found,
@@ -80,6 +84,10 @@ std::string evaluation_to_json(const TracksEvaluation& evaluation, const std::st
                             {"invalid_frames", evaluation.invalid_frames},
                             {"frozen_frames", evaluation.frozen_frames},
                             {"identities", to_json(evaluation.identities)},
+                            {"after_gaps",
+                             {{"gaps", evaluation.gaps.gaps},
+                              {"found_px", number(evaluation.gaps.found_px)},
+                              {"share", number(evaluation.gaps.share())}}},
                             {"hota", to_json(evaluation.hota)},
                             {"repeatability",
                              {{"points", evaluation.repeatability.points},
@@ -87,7 +95,23 @@ std::string evaluation_to_json(const TracksEvaluation& evaluation, const std::st
                             {"smooth", to_json(evaluation.smooth)},
                             {"events", to_json(evaluation.events)},
                             {"other_events", evaluation.other_events}};
-  return document.dump(-1, ' ', false, Ordered::error_handler_t::replace) + "\n";
+  return line(document);
+}
+
+std::string summary_to_json(const TracksSummary& summary, const std::string& found) {
+  Ordered events = Ordered::object();
+  for (const auto& [kind, frames] : summary.events) {
+    events[kind] = frames;
+  }
+  return line({{"found", found},
+               {"frames", summary.frames},
+               {"invalid_frames", summary.invalid_frames},
+               {"found_px", number(summary.found_px)},
+               {"labelled", number(summary.labelled_px / summary.found_px)},
+               {"aged", number(summary.aged_px / summary.found_px)},
+               {"ids", summary.ids},
+               {"median_life_frames", number(summary.median_life_frames)},
+               {"events", std::move(events)}});
 }
 
 }  // namespace thermedge::eval

@@ -301,6 +301,43 @@ TEST(Tracks, InvalidFramesCountForNothing) {
   EXPECT_EQ(sequence.judged().identities.false_px, 0);
 }
 
+TEST(Gaps, TellWhetherIdentitiesComeBack) {
+  const auto with_gap = [](std::int64_t after) {
+    Sequence sequence = labelled(half_way(1, after), always(2));
+    for (std::size_t i = 15; i < 20; ++i) {
+      sequence.truth[i].frozen = true;
+    }
+    return sequence.judged().gaps;
+  };
+  EXPECT_EQ(with_gap(1).gaps, 1U);
+  EXPECT_EQ(with_gap(1).share(), 1);
+  EXPECT_EQ(with_gap(3).share(), 0.5);
+  EXPECT_EQ(with_gap(3).found_px, 5 * 200);
+  EXPECT_EQ(labelled(always(1), always(2)).judged().gaps.gaps, 0U);
+}
+
+TEST(TracksSummary, CountsLengthsAndLives) {
+  Sequence sequence;
+  sequence.add_found([](int i) { return tracked(level(30), i < 30 ? 1 : 2); });
+  sequence.add_found([](int) { return tracked(level(60), {{0, 50, 3}}); });
+  sequence.found[7].valid = false;
+  sequence.found[7].events = {"frozen"};
+  sequence.found[8].events = {"frozen", "clipped"};
+  const TracksSummary summary = summarise_tracks(sequence.found);
+  EXPECT_EQ(summary.frames, 40U);
+  EXPECT_EQ(summary.invalid_frames, 1U);
+  EXPECT_EQ(summary.found_px, 39 * 200);
+  EXPECT_EQ(summary.labelled_px, 39 * 150);
+  // Of the first edge all but the first 5 frames of each identity, of the half one likewise.
+  EXPECT_EQ(summary.aged_px, (24 + 5) * 100 + 34 * 50);
+  EXPECT_EQ(summary.ids, 3U);
+  EXPECT_EQ(summary.median_life_frames, 30);
+  ASSERT_EQ(summary.events.size(), 2U);
+  EXPECT_EQ(summary.events[1].first, "frozen");
+  EXPECT_EQ(summary.events[1].second, 2U);
+  EXPECT_EQ(summarise_tracks(std::vector<TrackedFrame>{}).ids, 0U);
+}
+
 // Wiggles of the found edge are no length, and cost nothing.
 TEST(Tracks, NoiseOfPositionsCostsNoDetections) {
   Sequence sequence = two_edges();

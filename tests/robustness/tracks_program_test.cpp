@@ -19,8 +19,9 @@ class TracksProgram : public ProgramTest {
     if (IsSkipped()) {
       return;
     }
-    output_of(
-        "simulate desk -o scene --frames 3 --write truth --quiet --set width=160 --set height=120");
+    EXPECT_EQ(output_of("simulate desk -o scene --frames 3 --write truth --quiet --set width=160 "
+                        "--set height=120"),
+              "");
     std::istringstream lines(text_of("scene/truth.jsonl"));
     std::string tracks;
     for (std::string line; std::getline(lines, line);) {
@@ -61,6 +62,16 @@ TEST_F(TracksProgram, FindsTheTruthItselfWithoutFault) {
   EXPECT_EQ(text_of("page.txt"), page);
 }
 
+TEST_F(TracksProgram, TellsWhatItCanWithoutTruth) {
+  const Json json = Json::parse(output_of("evaluate --tracks tracks.jsonl --json"));
+  EXPECT_EQ(json["frames"], 3);
+  EXPECT_EQ(json["labelled"], 1);
+  EXPECT_EQ(json["aged"], 0);
+  EXPECT_EQ(json["median_life_frames"], 3);
+  EXPECT_NE(output_of("evaluate --tracks tracks.jsonl").find("half of them last 3 frames"),
+            std::string::npos);
+}
+
 TEST_F(TracksProgram, SaysWhatIsWrongInOneLine) {
   write_text(directory_ / "bad.jsonl", "\n{\"frame\":0,\"edges\":[{\"points\":[[1]]}]}\n");
   write_text(directory_ / "other.jsonl", "{\"frame\":99,\"edges\":[]}\n");
@@ -83,7 +94,7 @@ TEST_F(TracksProgram, SaysWhatIsWrongInOneLine) {
        {all + "--at 3", 2, "--at"},
        {all + "--reach 0", 2, "--reach"},
        {"evaluate tracks.jsonl scene/truth.jsonl --reach 2", 2, "--tracks"},
-       {"evaluate --tracks tracks.jsonl", 2, "--tracks: needs GT"}},
+       {"evaluate --tracks bad.jsonl", 1, "bad.jsonl:2: edge 0: points should be"}},
       directory_);
 }
 

@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "thermedge/eval/curves.hpp"
@@ -97,6 +98,17 @@ struct IdentityFigures {
   [[nodiscard]] double ids_per_edge() const;
 };
 
+// Identities after frames that are no measurement (invalid or frozen). Lengths are of true edges,
+// in the third to seventh frame after such a gap, summed over gaps and edges that had an identity
+// before it.
+struct GapFigures {
+  std::size_t gaps = 0;
+  double found_px = 0;
+  double same_px = 0;  // the identity that held most of the edge in the five frames before the gap
+
+  [[nodiscard]] double share() const { return same_px / found_px; }  // NaN without a gap
+};
+
 // HOTA (Luiten et al. 2020) with the samples of curves, 1 px apart, as detections.
 struct Hota {
   double hota = 0;
@@ -135,6 +147,7 @@ struct TracksEvaluation {
   std::size_t invalid_frames = 0;  // by the tracks
   std::size_t frozen_frames = 0;   // by the truth
   IdentityFigures identities;
+  GapFigures gaps;
   HotaFigures hota;
   Repeatability repeatability;  // of samples that are found again in the next frame, moved with
                                 // their true edge
@@ -161,9 +174,25 @@ struct TracksEvaluation {
                                                        const TracksOptions& options,
                                                        ParallelRunner& runner);
 
+// What tracks say without truth. Lengths are in px, of found edges in valid frames.
+struct TracksSummary {
+  std::size_t frames = 0;
+  std::size_t invalid_frames = 0;
+  double found_px = 0;
+  double labelled_px = 0;  // of it, with an identity
+  double aged_px = 0;      // of that, of identities that were seen 5 frames before or earlier
+  std::size_t ids = 0;
+  double median_life_frames = 0;  // from the first to the last frame of an identity
+  std::vector<std::pair<std::string, std::size_t>> events;  // frames that name each kind
+};
+[[nodiscard]] TracksSummary summarise_tracks(const std::vector<TrackedFrame>& frames);
+// The same for a file of JSON lines. Errors name file and line.
+[[nodiscard]] Result<TracksSummary> summarise_tracks(const std::string& path);
+
 // Everything as one JSON object on one line, rounded to 9 digits. What there was nothing to measure
 // on is null.
 [[nodiscard]] std::string evaluation_to_json(const TracksEvaluation& evaluation,
                                              const std::string& found, const std::string& truth);
+[[nodiscard]] std::string summary_to_json(const TracksSummary& summary, const std::string& found);
 
 }  // namespace thermedge::eval
