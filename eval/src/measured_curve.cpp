@@ -30,11 +30,6 @@ double MeasuredCurve::arc_px(std::size_t part, double share) const {
   return arcs_[part] + share * (arcs_[next] - arcs_[part]);
 }
 
-double MeasuredCurve::distance_px(double arc, double other_arc) const {
-  const double apart = std::abs(arc - other_arc);
-  return is_closed() ? std::min(apart, length_px() - apart) : apart;
-}
-
 std::size_t MeasuredCurve::part_at(double arc_px) const {
   const auto above = std::upper_bound(arcs_.begin(), arcs_.end(), arc_px);
   const auto part =

@@ -25,17 +25,15 @@ class MeasuredCurve {
   [[nodiscard]] std::vector<Sample> samples() const;
 
   [[nodiscard]] double length_px() const { return arcs_.back(); }
-  [[nodiscard]] bool is_closed() const { return arcs_.size() > curve_.points.size(); }
   // From the first point to the place on the part that begins at the `part`th point.
   [[nodiscard]] double arc_px(std::size_t part, double share) const;
-  // Along the curve; shorter way round of a closed one.
-  [[nodiscard]] double distance_px(double arc, double other_arc) const;
   // The direction of the chord over 4 px around a place, a unit vector; 0 on a lone point.
   [[nodiscard]] Point direction(double arc_px) const;
   // The same around the middle of the part that begins at the `part`th point.
   [[nodiscard]] Point part_direction(std::size_t part) const { return part_directions_[part]; }
 
  private:
+  [[nodiscard]] bool is_closed() const { return arcs_.size() > curve_.points.size(); }
   [[nodiscard]] std::size_t part_at(double arc_px) const;
   [[nodiscard]] Point at(double arc_px) const;
   [[nodiscard]] Point chord(double from_px, double to_px) const;

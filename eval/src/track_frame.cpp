@@ -121,15 +121,9 @@ class Comparison {
     const auto count = static_cast<std::int64_t>(samples.size());
     const double step = measured.length_px() / static_cast<double>(count);
     const auto middle = static_cast<std::int64_t>(step > 0 ? std::floor(arc / step) : 0);
-    std::set<std::int64_t> around;
-    for (std::int64_t i = middle - 2; i <= middle + 2; ++i) {
-      const std::int64_t wrapped = measured.is_closed() ? (i % count + count) % count : i;
-      if (wrapped >= 0 && wrapped < count) {
-        around.insert(wrapped);
-      }
-    }
-    for (const std::int64_t i : around) {
-      const double along = measured.distance_px(samples[static_cast<std::size_t>(i)].arc_px, arc);
+    for (std::int64_t i = std::max(middle - 2, std::int64_t{0});
+         i <= std::min(middle + 2, count - 1); ++i) {
+      const double along = std::abs(samples[static_cast<std::size_t>(i)].arc_px - arc);
       if (along <= kAlongPx) {
         figures_.samples.pairs.push_back(
             {first_sample_[place.curve] + static_cast<std::int32_t>(i),

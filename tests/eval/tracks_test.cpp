@@ -313,6 +313,15 @@ TEST(Gaps, TellWhetherIdentitiesComeBack) {
   EXPECT_EQ(with_gap(1).share(), 1);
   EXPECT_EQ(with_gap(3).share(), 0.5);
   EXPECT_EQ(with_gap(3).found_px, 5 * 200);
+  // The first two frames after it are left to settle.
+  for (const std::size_t late : {1U, 2U}) {
+    Sequence sequence = labelled(always(1), always(2));
+    for (std::size_t i = 15; i < 20; ++i) {
+      sequence.found[i].valid = false;
+    }
+    sequence.found[20 + late].edges[0].tracks[0].id = 9;
+    EXPECT_EQ(sequence.judged().gaps.share(), late == 1 ? 1 : 0.9);
+  }
   EXPECT_EQ(labelled(always(1), always(2)).judged().gaps.gaps, 0U);
 }
 
@@ -498,6 +507,11 @@ TEST(FramePairs, AreFormedByStampsThenNumbersThenOrder) {
   sequence.found.erase(sequence.found.begin(), sequence.found.begin() + 20);
   TracksOptions options;
   options.least_frames = 10;
+  EXPECT_EQ(sequence.judged(options).identities.kept(), 1);
+  // Stamps that are all the same tell nothing.
+  for (TrackedFrame& frame : sequence.found) {
+    frame.stamp_ns = 0;
+  }
   EXPECT_EQ(sequence.judged(options).identities.kept(), 1);
   // Numbers that are not the truth's: stamps decide.
   for (std::size_t i = 0; i < 20; ++i) {

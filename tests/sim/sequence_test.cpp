@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "facets.hpp"
 #include "motion.hpp"
 #include "path.hpp"
 #include "sensor.hpp"
@@ -246,6 +247,23 @@ TEST(MovingThings, OfASceneFile) {
       "ball", 1);
   ASSERT_FALSE(bad);
   EXPECT_NE(bad.error().message.find("moves_in_s"), std::string::npos) << bad.error().message;
+}
+
+// A ball that sinks into the floor between two walls that pierce it: no number of an edge changes.
+TEST(MovingThings, ChangeNoNumbersOfEdges) {
+  const auto world = parse_world(
+      "[view]\nposition_m = [0, 0, 1]\nlook_at_m = [0, 1, 1]\n"
+      "[[object]]\ntype = 'sphere'\ncentre_m = [0, 2, 1]\nradius_m = 0.3\nmoves_m = [0, 0, -1]\n"
+      "[[object]]\ntype = 'quad'\ncorner_m = [-1, 1, 0]\nright_m = [2, 0, 0]\nup_m = [0, 2, 0]\n"
+      "[[object]]\ntype = 'quad'\ncorner_m = [-0.5, 1, -1]\nright_m = [0, 2, 0]\n"
+      "up_m = [0, 0, 2]\n",
+      "ball", 1);
+  ASSERT_TRUE(world) << world.error().message;
+  const Facets before = tessellate(world_at(*world, 0));
+  const Facets later = tessellate(world_at(*world, 1));
+  ASSERT_EQ(before.curves.size(), later.curves.size());
+  EXPECT_EQ(before.curves.size(), 1U + 4 + 4 + 1);
+  EXPECT_EQ(before.curves.back().curve.centre, later.curves.back().curve.centre);
 }
 
 TEST(Sequence, HasTheSameBitsOnEveryMachineAndInAnyOrder) {
