@@ -59,6 +59,9 @@ void add_positions(const eval::TracksEvaluation& evaluation, double repeat_reach
   page.row("smoothed", number(smooth.smooth_rms_px, 4),
            fmt::format("px RMS, {} of the measured",
                        number(smooth.smooth_rms_px / smooth.measured_rms_px, 3)));
+  page.row("jitter", number(smooth.smooth_jitter_px, 4),
+           fmt::format("px RMS from frame to frame, {} of the measured",
+                       number(smooth.smooth_jitter_px / smooth.measured_jitter_px, 3)));
   page.row("lag", number(smooth.smooth_lag_px, 4),
            fmt::format("px at constant speed (measured {}), {} points",
                        number(smooth.measured_lag_px, 4), smooth.moving_points));

@@ -1,5 +1,6 @@
 #include "track_motion.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "camera_view.hpp"
@@ -75,6 +76,22 @@ class TrueScene {
   PlacedCurves curves_;
 };
 
+// Edges through their smoothed positions.
+std::vector<Curve> smooth_curves_of(const TrackedFrame& frame) {
+  std::vector<Curve> curves;
+  curves.reserve(frame.edges.size());
+  for (const TrackedCurve& edge : frame.edges) {
+    Curve& curve = curves.emplace_back();
+    curve.closed = edge.curve.closed;
+    for (const std::optional<Point>& point : edge.smooth) {
+      if (point) {
+        curve.points.push_back(*point);
+      }
+    }
+  }
+  return curves;
+}
+
 class Neighbours {
  public:
   Neighbours(std::span<const FramePair> frames, std::size_t index, const TrackIndex& tracks,
@@ -89,7 +106,9 @@ class Neighbours {
         here_(*frame_.truth, std::max(kParallaxPx, options.reach_px)) {
     if (index + 1 < frames.size() && frames[index + 1].counts()) {
       next_curves_ = curves_of(*frames[index + 1].found);
-      next_found_.emplace(next_curves_, options.repeat_reach_px);
+      next_smooth_curves_ = smooth_curves_of(*frames[index + 1].found);
+      next_found_.emplace(next_curves_, std::max(options.repeat_reach_px, options.reach_px));
+      next_smooth_.emplace(next_smooth_curves_, options.reach_px);
       next_.emplace(*frames[index + 1].truth, kParallaxPx);
     }
     for (std::size_t back = 1; back <= kPast && back <= index && frames[index - back].counts();
@@ -135,8 +154,14 @@ class Neighbours {
     const Point expected = there->beside(edge->place.offset_px(point));
     if (next_->is_inside(expected)) {
       ++figures_.repeatability.points;
+      const auto near = next_found_->near(expected, there->along, cosine_);
       figures_.repeatability.repeated +=
-          next_found_->near(expected, there->along, cosine_).empty() ? 0 : 1;
+          std::any_of(near.begin(), near.end(),
+                      [&](const auto& place) {
+                        return place.place.distance_px <= options_.repeat_reach_px;
+                      })
+              ? 1
+              : 0;
     }
   }
 
@@ -151,7 +176,10 @@ class Neighbours {
       const auto at = true_edge(
           point, measured.direction(measured.arc_px(std::min(i, edge.curve.points.size() - 1), 0)));
       if (at) {
-        add_offsets(*at, at->place.offset_px(point), at->place.offset_px(*edge.smooth[i]));
+        const double measured_px = at->place.offset_px(point);
+        const double smooth_px = at->place.offset_px(*edge.smooth[i]);
+        add_offsets(*at, measured_px, smooth_px);
+        add_changes(*at, measured_px, smooth_px);
       }
     }
   }
@@ -165,6 +193,26 @@ class Neighbours {
       ++figures_.moving_points;
       figures_.measured_lag_px -= sign * measured_px;
       figures_.smooth_lag_px -= sign * smooth_px;
+    }
+  }
+
+  // How the offsets are others in the next frame.
+  void add_changes(const OnEdge& edge, double measured_px, double smooth_px) {
+    const auto there = next_ ? next_->place_of(edge.place, here_, edge.id, cosine_) : std::nullopt;
+    if (!there) {
+      return;
+    }
+    const auto offset_in = [&](const PlacedCurves& curves, double expected_px) {
+      const auto near = curves.near(there->beside(expected_px), there->along, cosine_);
+      const auto* place = nearest_of(near, [](const auto& any) { return any.place.beside; });
+      return place != nullptr ? std::optional(there->offset_px(place->foot)) : std::nullopt;
+    };
+    const auto measured = offset_in(*next_found_, measured_px);
+    const auto smooth = offset_in(*next_smooth_, smooth_px);
+    if (measured && smooth) {
+      ++figures_.repeated_points;
+      figures_.measured_change_px2 += (*measured - measured_px) * (*measured - measured_px);
+      figures_.smooth_change_px2 += (*smooth - smooth_px) * (*smooth - smooth_px);
     }
   }
 
@@ -199,10 +247,10 @@ class Neighbours {
   const TrackIndex& tracks_;
   const TracksOptions& options_;
   double cosine_;
-  std::vector<Curve> found_curves_, next_curves_;
+  std::vector<Curve> found_curves_, next_curves_, next_smooth_curves_;
   PlacedCurves found_;
   TrueScene here_;
-  std::optional<PlacedCurves> next_found_;
+  std::optional<PlacedCurves> next_found_, next_smooth_;
   std::optional<TrueScene> next_;
   std::vector<TrueScene> past_;  // the last frame first
   MotionFigures figures_;
@@ -216,6 +264,9 @@ MotionFigures& MotionFigures::operator+=(const MotionFigures& other) {
   points += other.points;
   measured_square_px2 += other.measured_square_px2;
   smooth_square_px2 += other.smooth_square_px2;
+  repeated_points += other.repeated_points;
+  measured_change_px2 += other.measured_change_px2;
+  smooth_change_px2 += other.smooth_change_px2;
   moving_points += other.moving_points;
   measured_lag_px += other.measured_lag_px;
   smooth_lag_px += other.smooth_lag_px;
@@ -225,9 +276,13 @@ MotionFigures& MotionFigures::operator+=(const MotionFigures& other) {
 SmoothFigures MotionFigures::smooth() const {
   const auto all = static_cast<double>(points);
   const auto moving = static_cast<double>(moving_points);
+  const auto twice = 2 * static_cast<double>(repeated_points);
   return {points,
           std::sqrt(measured_square_px2 / all),
           std::sqrt(smooth_square_px2 / all),
+          repeated_points,
+          std::sqrt(measured_change_px2 / twice),
+          std::sqrt(smooth_change_px2 / twice),
           moving_points,
           measured_lag_px / moving,
           smooth_lag_px / moving};

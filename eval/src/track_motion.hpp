@@ -11,6 +11,8 @@ struct MotionFigures {
   Repeatability repeatability;
   std::int64_t points = 0;  // with a smoothed position, beside a true edge that counts
   double measured_square_px2 = 0, smooth_square_px2 = 0;
+  std::int64_t repeated_points = 0;  // that have neighbours in the next frame
+  double measured_change_px2 = 0, smooth_change_px2 = 0;
   std::int64_t moving_points = 0;
   double measured_lag_px = 0, smooth_lag_px = 0;  // sums
 

@@ -53,6 +53,9 @@ Ordered to_json(const SmoothFigures& figures) {
           {"measured_rms_px", number(figures.measured_rms_px)},
           {"smooth_rms_px", number(figures.smooth_rms_px)},
           {"ratio", number(figures.smooth_rms_px / figures.measured_rms_px)},
+          {"measured_jitter_px", number(figures.measured_jitter_px)},
+          {"smooth_jitter_px", number(figures.smooth_jitter_px)},
+          {"jitter_ratio", number(figures.smooth_jitter_px / figures.measured_jitter_px)},
           {"moving_points", figures.moving_points},
           {"measured_lag_px", number(figures.measured_lag_px)},
           {"smooth_lag_px", number(figures.smooth_lag_px)}};

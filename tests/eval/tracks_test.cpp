@@ -451,6 +451,10 @@ TEST(Smooth, RmsAndLagAreMeasuredAcrossTheEdge) {
     EXPECT_NEAR(static_cast<double>(smooth.points), 100.0 * kFrames, 3 * kFrames);
     EXPECT_NEAR(smooth.measured_rms_px, 0.4, 1e-9);
     EXPECT_NEAR(smooth.smooth_rms_px, std::hypot(0.1, 0.04), 1e-9);
+    // From +0.4 to -0.4 and back.
+    EXPECT_NEAR(smooth.measured_jitter_px, 0.8 / std::sqrt(2), 1e-9);
+    EXPECT_NEAR(smooth.smooth_jitter_px, 0.2 / std::sqrt(2), 1e-9);
+    EXPECT_GT(smooth.repeated_points, 3500);
     EXPECT_GT(smooth.moving_points, 3000);
     EXPECT_NEAR(smooth.smooth_lag_px, 0.04, 0.005);  // the noise of one frame may stay
     EXPECT_NEAR(smooth.measured_lag_px, 0, 0.02);

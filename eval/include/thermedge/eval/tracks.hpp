@@ -128,6 +128,11 @@ struct SmoothFigures {
   std::int64_t points = 0;
   double measured_rms_px = 0;  // NaN without points
   double smooth_rms_px = 0;
+  // From frame to frame: the difference of the two distances from the moved true edge, over the
+  // root of 2. What is off in the same way in both frames is not in it. NaN without such points.
+  std::int64_t repeated_points = 0;
+  double measured_jitter_px = 0;
+  double smooth_jitter_px = 0;
   std::int64_t moving_points = 0;  // of true edges that move at constant speed
   double measured_lag_px = 0;      // behind the true edge, along its motion; NaN without points
   double smooth_lag_px = 0;
