@@ -8,6 +8,8 @@ namespace {
 
 using Ordered = nlohmann::ordered_json;
 
+constexpr int kFormatVersion = 1;
+
 Ordered number(double value) {
   constexpr double kDigits = 1e9;
   return std::isfinite(value) ? Ordered(std::round(value * kDigits) / kDigits) : Ordered(nullptr);
@@ -81,7 +83,8 @@ std::string line(const Ordered& document) {
 
 std::string evaluation_to_json(const TracksEvaluation& evaluation, const std::string& found,
                                const std::string& truth) {
-  const Ordered document = {{"found", found},
+  const Ordered document = {{"format_version", kFormatVersion},
+                            {"found", found},
                             {"truth", truth},
                             {"frames", evaluation.frames},
                             {"invalid_frames", evaluation.invalid_frames},
@@ -106,7 +109,8 @@ std::string summary_to_json(const TracksSummary& summary, const std::string& fou
   for (const auto& [kind, frames] : summary.events) {
     events[kind] = frames;
   }
-  return line({{"found", found},
+  return line({{"format_version", kFormatVersion},
+               {"found", found},
                {"frames", summary.frames},
                {"invalid_frames", summary.invalid_frames},
                {"found_px", number(summary.found_px)},
