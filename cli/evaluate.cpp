@@ -3,12 +3,14 @@
 #include <array>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string_view>
 #include <system_error>
 
 #include "commands.hpp"
 #include "common.hpp"
 #include "console.hpp"
+#include "evaluate_tracks.hpp"
 #include "evaluation_page.hpp"
 #include "standard_output.hpp"
 #include "thermedge/eval/evaluate.hpp"
@@ -25,7 +27,8 @@ struct EvaluateCommand : RunOptions {
   std::string truth;
   std::string output;
   eval::EvaluationOptions options;
-  double least_contrast_counts = 0;
+  TracksCommand tracks;
+  std::optional<double> least_contrast_counts;
   bool no_thin = false;
   bool empty = false;
   bool json = false;
@@ -36,6 +39,7 @@ struct EvaluateCommand : RunOptions {
   [[nodiscard]] Result<std::string> with_truth(const eval::PredictionSet& set,
                                                Console& report) const;
   [[nodiscard]] Status check_output() const;
+  [[nodiscard]] Result<std::string> judge(Console& report) const;
   [[nodiscard]] Result<std::string> alone(const eval::PredictionSet& set, Console& report) const;
   [[nodiscard]] bool as_json() const { return json || io::ending_of(output) == ".json"; }
 };
@@ -48,7 +52,7 @@ void report_all(const std::vector<Error>& errors, Console& report) {
 
 Result<std::string> EvaluateCommand::with_truth(const eval::PredictionSet& set,
                                                 Console& report) const {
-  const auto truth_set = eval::GroundTruthSet::open(truth, {least_contrast_counts, {}});
+  const auto truth_set = eval::GroundTruthSet::open(truth, {least_contrast_counts.value_or(0), {}});
   if (!truth_set) {
     return tl::unexpected(truth_set.error());
   }
@@ -92,6 +96,16 @@ Status EvaluateCommand::check_output() const {
   return inputs.check_file("-o", output);
 }
 
+Result<std::string> EvaluateCommand::judge(Console& report) const {
+  if (tracks.on) {
+    return tracks.run(found, truth, least_contrast_counts.value_or(-1), options.sigma_counts,
+                      threads, as_json(), report);
+  }
+  return eval::PredictionSet::open(found).and_then([&](const eval::PredictionSet& opened) {
+    return truth.empty() ? alone(opened, report) : with_truth(opened, report);
+  });
+}
+
 int EvaluateCommand::run() {
   Console report = this->report();
   if (empty && !truth.empty()) {
@@ -102,10 +116,7 @@ int EvaluateCommand::run() {
   }
   options.count.thin = !no_thin;
   options.progress = [&report](std::size_t done, std::size_t all) { report.progress(done, all); };
-  const auto set = eval::PredictionSet::open(found);
-  const Result<std::string> text = set.and_then([&](const eval::PredictionSet& opened) {
-    return truth.empty() ? alone(opened, report) : with_truth(opened, report);
-  });
+  const Result<std::string> text = judge(report);
   if (!text) {
     return report.fail(text.error());
   }
@@ -144,9 +155,9 @@ void add_evaluate(CLI::App& program, int& exit_code) {
       ->check(CLI::Range(0.0, 0.1))
       ->capture_default_str();
   app.add_option("--least-contrast", command->least_contrast_counts,
-                 "true curves of less contrast, in counts, may be found or missed")
-      ->check(CLI::Range(0.0, 65535.0))
-      ->capture_default_str();
+                 "true curves of less contrast, in counts, may be found or missed (default 0; with "
+                 "--tracks 40, or 2 sigma where that is more)")
+      ->check(CLI::Range(0.0, 65535.0));
   app.add_option("--sigma", options.sigma_counts,
                  "noise in counts, for recall by contrast (0: taken from the results)")
       ->check(CLI::Range(0.0, 65535.0))
@@ -159,6 +170,7 @@ void add_evaluate(CLI::App& program, int& exit_code) {
   app.add_option("-o,--output", command->output,
                  "file for the result: a page of text, or JSON (.json)");
   app.add_flag("--json", command->json, "one JSON object instead of the page");
+  command->tracks.add_to(app);
   command->add_to(app);
   app.callback([command, &exit_code] { exit_code = command->run(); });
 }

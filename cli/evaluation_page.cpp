@@ -3,30 +3,14 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cmath>
+
+#include "page.hpp"
 
 namespace thermedge::cli {
 namespace {
 
-class Page {
- public:
-  void line(const std::string& text) { text_ += text + "\n"; }
-  void heading(std::string_view title) { text_ += fmt::format("\n{}\n", title); }
-  void row(std::string_view label, const std::string& value, const std::string& meaning) {
-    text_ += fmt::format("  {:<20} {:<12} {}\n", label, value, meaning);
-  }
-  std::string take() { return std::move(text_); }
-
- private:
-  std::string text_;
-};
-
 std::string frames_text(std::size_t frames) {
   return fmt::format("{} frame{}", frames, frames == 1 ? "" : "s");
-}
-
-std::string number(double value, int digits) {
-  return std::isfinite(value) ? fmt::format("{:.{}f}", value, digits) : "-";
 }
 
 std::string threshold_text(double threshold) { return fmt::format("at {:.4g} of 255", threshold); }

@@ -210,7 +210,7 @@ void add_simulate(CLI::App& program, int& exit_code) {
   app.add_option("--camera", command->camera, "the camera's optics and noise (default pi450)")
       ->check(CLI::IsMember(sim::camera_names()));
   app.add_option("--path", command->path, "how the camera moves (default hand)")
-      ->check(CLI::IsMember({"hand", "drive", "pan", "still"}));
+      ->check(CLI::IsMember({"hand", "drive", "pan", "shake", "still"}));
   app.add_option("--frames", command->frames, "number of frames (default 100)")
       ->check(CLI::Range(1, 1000000));
   app.add_option("--seed", command->seed, "noise, path, variations of the scene");

@@ -35,6 +35,12 @@ void for_each_part(const Curve& curve, F&& visit) {
   }
 }
 
+[[nodiscard]] inline double length_px(const Curve& curve) {
+  double sum = 0;
+  for_each_part(curve, [&](Point from, Point to) { sum += distance(from, to); });
+  return sum;
+}
+
 // Calls visit(middle, length) for equal pieces of at most kPiecePx between two points.
 template <class F>
 void for_each_piece(Point from, Point to, F&& visit) {

@@ -1,13 +1,13 @@
+#include "curves_json.hpp"
+
+#include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "curve_parts.hpp"
 #include "thermedge/limits.hpp"
 
 namespace thermedge::eval {
 namespace {
-
-using Json = nlohmann::json;
 
 constexpr double kFarthestPx = 1e5;  // a coordinate beyond this is no place in a frame
 
@@ -40,25 +40,27 @@ bool take_points(const Json& edge, std::vector<Point>& points) {
   if (entry == edge.end() || !entry->is_array()) {
     return false;
   }
-  points.reserve(entry->size());
-  for (const Json& point : *entry) {
-    if (!point.is_array() || point.size() != 2 || !point[0].is_number() || !point[1].is_number()) {
-      return false;
-    }
-    points.push_back({point[0].get<double>(), point[1].get<double>()});
-    if (!(std::abs(points.back().x) <= kFarthestPx && std::abs(points.back().y) <= kFarthestPx)) {
-      return false;
-    }
-  }
-  return true;
+  points.resize(entry->size());
+  return std::equal(entry->begin(), entry->end(), points.begin(),
+                    [](const Json& from, Point& to) { return take_point(from, to); });
 }
 
 double length_px(const CurveFrame& frame) {
   double sum = 0;
   for (const Curve& curve : frame.curves) {
-    for_each_part(curve, [&](Point from, Point to) { sum += distance(from, to); });
+    sum += length_px(curve);
   }
   return sum;
+}
+
+}  // namespace
+
+bool take_point(const Json& json, Point& point) {
+  if (!json.is_array() || json.size() != 2 || !json[0].is_number() || !json[1].is_number()) {
+    return false;
+  }
+  point = {json[0].get<double>(), json[1].get<double>()};
+  return std::abs(point.x) <= kFarthestPx && std::abs(point.y) <= kFarthestPx;
 }
 
 Result<Curve> parse_curve(const Json& edge, const std::string& name) {
@@ -84,10 +86,7 @@ Result<Curve> parse_curve(const Json& edge, const std::string& name) {
   return curve;
 }
 
-}  // namespace
-
-Result<CurveFrame> parse_curves(std::string_view json, const std::string& name) {
-  const Json document = Json::parse(json, nullptr, false);
+Result<CurveFrame> parse_curves(const Json& document, const std::string& name) {
   if (!document.is_object()) {
     return wrong(name, "should be a JSON object with width, height and edges");
   }
@@ -118,6 +117,10 @@ Result<CurveFrame> parse_curves(std::string_view json, const std::string& name) 
                            "x" + std::to_string(frame.height) + " pixels holds");
   }
   return frame;
+}
+
+Result<CurveFrame> parse_curves(std::string_view json, const std::string& name) {
+  return parse_curves(Json::parse(json, nullptr, false), name);
 }
 
 }  // namespace thermedge::eval

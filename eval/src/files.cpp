@@ -115,10 +115,12 @@ Result<JsonLines> JsonLines::read(const std::string& path, const Limits& limits)
   });
 }
 
+std::string JsonLines::label(std::size_t index) const {
+  return path_ + ":" + std::to_string(lines_[index].number);
+}
+
 Result<CurveFrame> JsonLines::frame(std::size_t index) const {
-  const Line& line = lines_[index];
-  return parse_curves(std::string_view(text_).substr(line.begin, line.length),
-                      path_ + ":" + std::to_string(line.number));
+  return parse_curves(text(index), label(index));
 }
 
 Result<Image<std::uint8_t>> read_edge_map(const std::string& path, const Limits& limits) {

@@ -9,9 +9,12 @@ NearestOnCurves::NearestOnCurves(std::span<const Curve> curves, double reach_px)
     : reach_px_(reach_px), cell_px_(std::max(reach_px, 4.0)) {
   Point high{0, 0};
   bool any = false;
-  for (const Curve& curve : curves) {
+  for (std::size_t index = 0; index < curves.size(); ++index) {
+    const Curve& curve = curves[index];
     const std::size_t first = segments_.size();
-    for_each_part(curve, [&](Point from, Point to) { segments_.push_back({from, to}); });
+    for_each_part(curve, [&](Point from, Point to) {
+      segments_.push_back({from, to, index, segments_.size() - first});
+    });
     if (!curve.closed && segments_.size() > first) {
       segments_[first].open_from = true;
       segments_.back().open_to = true;
@@ -74,25 +77,39 @@ void NearestOnCurves::for_each_cell(Point low, Point high, F&& visit) const {
   }
 }
 
+NearestOnCurves::PartPlace NearestOnCurves::place_on(const Segment& segment, Point point) const {
+  const double dx = segment.to.x - segment.from.x;
+  const double dy = segment.to.y - segment.from.y;
+  const double px = point.x - segment.from.x;
+  const double py = point.y - segment.from.y;
+  const double squared_length = dx * dx + dy * dy;
+  const double along = squared_length > 0 ? (px * dx + py * dy) / squared_length : 0;
+  PartPlace result;
+  result.curve = segment.curve;
+  result.part = segment.part;
+  result.share = std::clamp(along, 0.0, 1.0);
+  result.foot = between(segment.from, segment.to, result.share);
+  if (squared_length > 0) {
+    const double length = std::sqrt(squared_length);
+    result.along = {dx / length, dy / length};
+  }
+  const double away = distance(point, result.foot);
+  result.place.distance_px = away;
+  result.place.offset_px = dx * py - dy * px >= 0 ? away : -away;
+  result.place.beside = !(segment.open_from && along < 0) && !(segment.open_to && along > 1);
+  return result;
+}
+
 // Where several places have the same distance, the one on the first curve is taken.
 NearestOnCurves::Place NearestOnCurves::nearest(Point point) const {
   Place best;
   std::uint32_t best_segment = 0;
   const auto look = [&](std::uint32_t index) {
-    const Segment& segment = segments_[index];
-    const double dx = segment.to.x - segment.from.x;
-    const double dy = segment.to.y - segment.from.y;
-    const double px = point.x - segment.from.x;
-    const double py = point.y - segment.from.y;
-    const double squared_length = dx * dx + dy * dy;
-    const double along = squared_length > 0 ? (px * dx + py * dy) / squared_length : 0;
-    const double t = std::clamp(along, 0.0, 1.0);
-    const double away = distance(point, between(segment.from, segment.to, t));
-    if (away <= reach_px_ &&
-        (away < best.distance_px || (away == best.distance_px && index < best_segment))) {
-      best.distance_px = away;
-      best.offset_px = dx * py - dy * px >= 0 ? away : -away;
-      best.beside = !(segment.open_from && along < 0) && !(segment.open_to && along > 1);
+    const Place place = place_on(segments_[index], point).place;
+    if (place.distance_px <= reach_px_ &&
+        (place.distance_px < best.distance_px ||
+         (place.distance_px == best.distance_px && index < best_segment))) {
+      best = place;
       best_segment = index;
     }
   };
@@ -100,6 +117,19 @@ NearestOnCurves::Place NearestOnCurves::nearest(Point point) const {
       {point.x - reach_px_, point.y - reach_px_}, {point.x + reach_px_, point.y + reach_px_},
       [&](std::size_t cell) { std::for_each(cells_[cell].begin(), cells_[cell].end(), look); });
   return best;
+}
+
+void NearestOnCurves::visit_near(Point point,
+                                 const std::function<void(const PartPlace&)>& visit) const {
+  for_each_cell({point.x - reach_px_, point.y - reach_px_},
+                {point.x + reach_px_, point.y + reach_px_}, [&](std::size_t cell) {
+                  for (const std::uint32_t index : cells_[cell]) {
+                    const PartPlace place = place_on(segments_[index], point);
+                    if (place.place.distance_px <= reach_px_) {
+                      visit(place);
+                    }
+                  }
+                });
 }
 
 }  // namespace thermedge::eval

@@ -32,6 +32,7 @@ class Builder {
   explicit Builder(Facets& result) : result_(result) {}
 
   void object(const Object& object) {
+    moves_ = object.moves();
     std::visit([&](const auto& shape) { add(shape); }, object.shape);
     ++object_;
   }
@@ -39,6 +40,7 @@ class Builder {
  private:
   int add_facet(Facet facet) {
     facet.object = object_;
+    facet.moves = moves_;
     result_.facets.push_back(std::move(facet));
     return static_cast<int>(result_.facets.size()) - 1;
   }
@@ -205,6 +207,7 @@ class Builder {
 
   Facets& result_;
   int object_ = 0;
+  bool moves_ = false;
 };
 
 }  // namespace

@@ -33,6 +33,7 @@ struct Facet {
   enum class Kind { kQuad, kDisc, kTube, kBall };
   Kind kind = Kind::kQuad;
   int object = 0;
+  bool moves = false;      // with its object; it has no cuts with others
   bool one_sided = false;  // seen only from where the normal points to
   Vec3 centre;             // of tubes: the middle of the axis
   Vec3 u, v;               // quads: half sides; discs: unit vectors in the plane

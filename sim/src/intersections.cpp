@@ -189,7 +189,9 @@ void add_intersections(Facets& world) {
       // A tube and its own round ends meet in a seam; else objects don't cut themselves.
       const bool seam =
           a.object == b.object && a.kind == Facet::Kind::kBall && b.kind == Facet::Kind::kTube;
-      if (i == j || (alike && j < i) || (a.object == b.object && !seam) ||
+      // Cuts that come and go would give the edges behind them other numbers.
+      const bool apart = a.object != b.object && (a.moves || b.moves);
+      if (i == j || (alike && j < i) || (a.object == b.object && !seam) || apart ||
           norm(a.centre - b.centre) > reach_of(a) + reach_of(b)) {
         continue;
       }

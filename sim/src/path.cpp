@@ -13,15 +13,18 @@ namespace {
 
 enum Stream : std::uint64_t { kPosition = 20, kAngle = 23 };
 
-// Three smooth random courses of time in -1..1, zero at the start.
-Vec3 wander(std::uint64_t seed, std::uint64_t stream, double knots) {
+// Three smooth random courses of time in -1..1, zero at the start. `jerky`: most
+// ways are short.
+Vec3 wander(std::uint64_t seed, std::uint64_t stream, double knots, bool jerky = false) {
   const double whole = std::floor(knots);
   const double t = knots - whole;
   const double blend = t * t * (3 - 2 * t);
   const auto course = [&](std::uint64_t axis) {
     const Random random(seed, stream + axis);
     const auto at = [&](double knot) {
-      return knot == 0 ? 0.0 : random.uniform(static_cast<std::uint64_t>(knot), -1, 1);
+      const double place =
+          knot == 0 ? 0.0 : random.uniform(static_cast<std::uint64_t>(knot), -1, 1);
+      return jerky ? place * std::abs(place) : place;
     };
     return at(whole) + (at(whole + 1) - at(whole)) * blend;
   };
@@ -91,10 +94,20 @@ Pose drive(const Viewpoint& view, const SceneOptions& options, double seconds) {
                  turned(axes, {0.002 * bumps.x, 0.001 * bumps.y, 0.001 * bumps.z}));
 }
 
+Pose shake(const Viewpoint& view, const Axes& start, const SceneOptions& options, double seconds) {
+  constexpr double kKnotsPerSecond = 8;
+  constexpr double kReach = 80 / 383.0 / 2;  // half the tangent of 80 px
+  const double knots = seconds * kKnotsPerSecond;
+  const Vec3 angle = wander(options.seed, kAngle, knots, true);
+  const Vec3 jitter = wander(options.seed, kPosition, knots / 4);
+  return pose_of(view.position + jitter * 0.015,
+                 turned(start, Vec3{0.6 * angle.x, angle.y, angle.z / 10} * kReach));
+}
+
 }  // namespace
 
 Pose pose_at(const Viewpoint& view, const SceneOptions& options, int index) {
-  const double seconds = index / options.camera.rate_hz;
+  const double seconds = index / options.camera.rate_hz * options.path_speed;
   const Axes start = turned(upright(view.look_at - view.position), roll(view));
   switch (options.path) {
     case PathKind::kHand: {
@@ -116,6 +129,8 @@ Pose pose_at(const Viewpoint& view, const SceneOptions& options, int index) {
       const SinCos half = sin_cos(kReachRad * sine / 2);
       return pose_of(view.position, turned(start, {0, half.sin / half.cos, 0}));
     }
+    case PathKind::kShake:
+      return shake(view, start, options, seconds);
     case PathKind::kStill:
       break;
   }

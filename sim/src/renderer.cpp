@@ -1,7 +1,9 @@
+#include <algorithm>
 #include <cmath>
 #include <new>
 
 #include "imager.hpp"
+#include "motion.hpp"
 #include "path.hpp"
 #include "scene_keys.hpp"
 #include "sensor.hpp"
@@ -48,6 +50,8 @@ class Renderer::Impl {
   Impl(SceneOptions options, World world)
       : options_(std::move(options)),
         world_(std::move(world)),
+        moves_(std::any_of(world_.objects.begin(), world_.objects.end(),
+                           [](const Object& object) { return object.moves(); })),
         facets_(tessellate(world_)),
         lens_(intrinsics_of(options_.camera)),
         imager_(lens_, options_.camera),
@@ -59,23 +63,23 @@ class Renderer::Impl {
   TrueFrame render(int index, ParallelRunner& runner) {
     const CameraOptions& camera = options_.camera;
     TrueFrame frame;
-    frame.index = index;
-    frame.stamp_ns = std::llround(index * 1e9 / camera.rate_hz);
-    frame.shutter = shutter_at(camera, options_.seed, index);
+    set_events(index, frame);
+    frame.stamp_ns = std::llround(frame.index * 1e9 / camera.rate_hz);
     frame.intrinsics = lens_.intrinsics();
     frame.counts.resize(camera.width, camera.height);
     frame.clean.resize(camera.width, camera.height);
-    const int shown = frame.shutter ? frame.shutter->shows_frame : index;
-    if (shown != index) {
-      ray_caster_.set_pose(pose_at(world_.view, options_, shown), runner);
-      imager_.run(ray_caster_, frame.clean, runner);
+    const int shown = shown_at(camera, frame.index);
+    if (shown != frame.index) {
+      look(shown, frame.clean, runner);
       sensor_.expose(frame.clean, shown, frame.counts, runner);
+      if (frame.freeze && frame.freeze->noise_counts > 0) {
+        sensor_.repeat(frame.freeze->noise_counts, frame.index, frame.counts);
+      }
     }
-    frame.pose = pose_at(world_.view, options_, index);
-    ray_caster_.set_pose(frame.pose, runner);
-    imager_.run(ray_caster_, frame.clean, runner);
-    if (shown == index) {
-      sensor_.expose(frame.clean, index, frame.counts, runner);
+    frame.pose = pose_at(world_.view, options_, frame.index);
+    look(frame.index, frame.clean, runner);
+    if (shown == frame.index) {
+      sensor_.expose(frame.clean, frame.index, frame.counts, runner);
     }
     frame.edges =
         true_edges(ray_caster_, options_.least_contrast_counts, camera.vignetting, runner);
@@ -87,8 +91,38 @@ class Renderer::Impl {
   }
 
  private:
+  [[nodiscard]] double seconds(int number) const { return number / options_.camera.rate_hz; }
+
+  // What happened to the `index`th frame that is not dropped.
+  void set_events(int index, TrueFrame& frame) const {
+    const CameraOptions& camera = options_.camera;
+    frame.index = static_cast<int>(camera_number(camera, index));
+    frame.dropped_frames =
+        index == 0 ? 0 : frame.index - static_cast<int>(camera_number(camera, index - 1)) - 1;
+    frame.shutter = shutter_at(camera, options_.seed, frame.index);
+    frame.freeze = freeze_at(camera, frame.index);
+    frame.offset_counts = offset_at(camera, options_.seed, shown_at(camera, frame.index));
+    frame.events = events_at(camera, options_.seed, index);
+    for (std::size_t i = 0; i < world_.objects.size(); ++i) {
+      if (world_.objects[i].moves()) {
+        frame.moved.push_back(
+            {static_cast<int>(i), moved_by(world_.objects[i].motion, seconds(frame.index))});
+      }
+    }
+  }
+
+  // The clean picture at a moment of the camera's clock.
+  void look(int number, ImageView<float> clean, ParallelRunner& runner) {
+    if (moves_) {
+      facets_ = tessellate(world_at(world_, seconds(number)));
+    }
+    ray_caster_.set_pose(pose_at(world_.view, options_, number), runner);
+    imager_.run(ray_caster_, clean, runner);
+  }
+
   SceneOptions options_;
   World world_;
+  bool moves_;
   Facets facets_;
   Lens lens_;
   Imager imager_;
@@ -109,6 +143,7 @@ Result<Renderer> Renderer::create(const SceneOptions& options) {
         .and_then([&] { return check_lens(options, Lens(intrinsics_of(options.camera))); })
         .and_then([&] { return find_world(options); })
         .map([&](World world) {
+          add_moving_things(options, world);
           return Renderer(std::make_unique<Impl>(options, std::move(world)));
         });
   });

@@ -8,6 +8,7 @@
 
 #include "number_text.hpp"
 #include "radiometer.hpp"
+#include "sensor.hpp"
 
 namespace thermedge::sim {
 namespace {
@@ -52,12 +53,24 @@ constexpr Key camera_key(std::string_view name, double min, double max) {
           [](SceneOptions& o, double value) { o.camera.*kMember = static_cast<Value>(value); }};
 }
 
+template <auto kMember>
+constexpr Key moving_key(std::string_view name, double min, double max) {
+  using Value = std::remove_cvref_t<decltype(MovingThings{}.*kMember)>;
+  return {name,
+          min,
+          max,
+          std::is_integral_v<Value>,
+          [](const SceneOptions& o) { return static_cast<double>(o.moving.*kMember); },
+          [](SceneOptions& o, double value) { o.moving.*kMember = static_cast<Value>(value); }};
+}
+
 constexpr double kMkPerCount = kDegcPerCount * 1000;
 
 constexpr std::array kKeys = {
     scene_key<&SceneOptions::seed>("seed", 0, 9e15),
     scene_key<&SceneOptions::frames>("frames", 1, 1e6),
     scene_key<&SceneOptions::least_contrast_counts>("least_contrast", 0, 5000),
+    scene_key<&SceneOptions::path_speed>("path_speed", 0, 100),
     camera_key<&CameraOptions::width>("width", 16, 4096),
     camera_key<&CameraOptions::height>("height", 16, 4096),
     camera_key<&CameraOptions::rate_hz>("rate", 0.1, 1000),
@@ -81,6 +94,21 @@ constexpr std::array kKeys = {
     camera_key<&CameraOptions::shutter_every>("shutter_every", 0, 1e6),
     camera_key<&CameraOptions::shutter_frames>("shutter_frames", 1, 1e6),
     camera_key<&CameraOptions::shutter_jump_counts>("shutter_jump", 0, 5000),
+    camera_key<&CameraOptions::freeze_every>("freeze_every", 0, 1e6),
+    camera_key<&CameraOptions::freeze_frames>("freeze_frames", 1, 1e6),
+    camera_key<&CameraOptions::freeze_noise>("freeze_noise", 0, 1),
+    camera_key<&CameraOptions::jump_every>("jump_every", 0, 1e6),
+    camera_key<&CameraOptions::jump_counts>("jump", 0, 5000),
+    camera_key<&CameraOptions::pattern_every>("pattern_every", 0, 1e6),
+    camera_key<&CameraOptions::drop_every>("drop_every", 0, 1e6),
+    camera_key<&CameraOptions::drop_frames>("drop_frames", 1, 1e6),
+    moving_key<&MovingThings::box>("box", 0, 1),
+    moving_key<&MovingThings::box_speed_px>("box_speed", 0, 100),
+    moving_key<&MovingThings::box_warmer_degc>("box_warmer", -100, 100),
+    moving_key<&MovingThings::hot>("hot", 0, 1),
+    moving_key<&MovingThings::hot_at_s>("hot_at", 0, 1e6),
+    moving_key<&MovingThings::hot_speed_px>("hot_speed", 0.01, 100),
+    moving_key<&MovingThings::hot_degc>("hot_degc", 0, 1000),
 };
 
 struct NamedPath {
@@ -89,7 +117,8 @@ struct NamedPath {
 };
 constexpr std::array kPaths = {
     NamedPath{"hand", PathKind::kHand}, NamedPath{"drive", PathKind::kDrive},
-    NamedPath{"pan", PathKind::kPan}, NamedPath{"still", PathKind::kStill}};
+    NamedPath{"pan", PathKind::kPan}, NamedPath{"shake", PathKind::kShake},
+    NamedPath{"still", PathKind::kStill}};
 
 bool allows(const Key& key, double value) {
   return value >= key.min && value <= key.max && (!key.whole || value == std::floor(value));
@@ -205,10 +234,24 @@ Status check(const SceneOptions& options) {
     }
   }
   const CameraOptions& camera = options.camera;
-  if (camera.shutter_every > 0 && camera.shutter_frames >= camera.shutter_every) {
-    return bad("sim:" + options.name + ": shutter_frames should be less than shutter_every");
-  }
-  return {};
+  const auto fits = [&](const char* what, int every, int frames) -> Status {
+    if (every > 0 && frames >= every) {
+      return bad("sim:" + options.name + ": " + what + "_frames should be less than " + what +
+                 "_every");
+    }
+    return {};
+  };
+  return fits("shutter", camera.shutter_every, camera.shutter_frames)
+      .and_then([&] { return fits("freeze", camera.freeze_every, camera.freeze_frames); })
+      .and_then([&] { return fits("drop", camera.drop_every, camera.drop_frames); })
+      .and_then([&]() -> Status {
+        if (camera_number(camera, options.frames - 1) > kLargestNumber) {
+          return bad("sim:" + options.name + ": " + std::to_string(options.frames) +
+                     " frames beside those that drop_every and drop_frames take are more than " +
+                     std::to_string(kLargestNumber));
+        }
+        return {};
+      });
 }
 
 }  // namespace thermedge::sim

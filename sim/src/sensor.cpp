@@ -20,8 +20,26 @@ enum Stream : std::uint64_t {
   kJumps,
   kFlickering,
   kFlicker,
-  kTemporal = 1000
+  kLevels,
+  kTemporal = 1000,   // and as many more as there are frames
+  kRepeats = 2000000  // likewise
 };
+constexpr double kLeastJumpCounts = 2;  // that is an event
+
+// Frames since the last beginning of what comes every `every` frames; nothing before the first.
+std::optional<int> frames_since(int every, int frame) {
+  return every > 0 && frame >= every ? std::optional(frame % every) : std::nullopt;
+}
+
+// Which of the fixed patterns that follow each other.
+std::uint64_t pattern_number(const CameraOptions& camera, int frame) {
+  return camera.pattern_every > 0 ? static_cast<std::uint64_t>(frame / camera.pattern_every) : 0;
+}
+
+bool has_pattern(const CameraOptions& camera) {
+  return camera.pixel_sigma_counts > 0 || camera.gain_sigma > 0 || camera.column_sigma_counts > 0 ||
+         camera.row_sigma_counts > 0;
+}
 
 // Number of shutter events that are over before `frame`.
 int events_before(const CameraOptions& camera, int frame) {
@@ -77,6 +95,72 @@ std::optional<ShutterState> shutter_at(const CameraOptions& camera, std::uint64_
   return std::nullopt;
 }
 
+std::int64_t camera_number(const CameraOptions& camera, std::int64_t index) {
+  if (camera.drop_every <= 0 || index < camera.drop_every) {
+    return index;
+  }
+  const std::int64_t kept = camera.drop_every - camera.drop_frames;
+  const std::int64_t after = index - camera.drop_every;
+  return camera.drop_every + after / kept * camera.drop_every + camera.drop_frames + after % kept;
+}
+
+std::optional<FreezeState> freeze_at(const CameraOptions& camera, int frame) {
+  const auto since = frames_since(camera.freeze_every, frame);
+  if (!since || *since >= camera.freeze_frames) {
+    return std::nullopt;
+  }
+  return FreezeState{shown_at(camera, frame - *since - 1),
+                     camera.freeze_noise * camera.sigma_counts};
+}
+
+int shown_at(const CameraOptions& camera, int frame) {
+  if (const auto freeze = freeze_at(camera, frame)) {
+    return freeze->shows_frame;
+  }
+  const auto since = frames_since(camera.shutter_every, frame);
+  return since && *since < camera.shutter_frames ? shown_at(camera, frame - *since - 1) : frame;
+}
+
+double offset_at(const CameraOptions& camera, std::uint64_t seed, int frame) {
+  const int jumps = camera.jump_every > 0 ? frame / camera.jump_every : 0;
+  double level = 0;
+  if (jumps % 2 == 1) {
+    const Random random(seed, kLevels);
+    const auto jump = static_cast<std::uint64_t>(jumps);
+    level = camera.jump_counts * random.uniform(2 * jump, 0.5, 1.5) *
+            (random.uniform(2 * jump + 1) < 0.5 ? -1 : 1);
+  }
+  return level + offset_after(camera, seed, events_before(camera, frame));
+}
+
+std::vector<StreamEvent> events_at(const CameraOptions& camera, std::uint64_t seed, int index) {
+  std::vector<StreamEvent> events;
+  if (index == 0) {
+    return events;
+  }
+  const auto frame = static_cast<int>(camera_number(camera, index));
+  const auto before = static_cast<int>(camera_number(camera, index - 1));
+  const int shown = shown_at(camera, frame);
+  const int shown_before = shown_at(camera, before);
+  if (frame != before + 1) {
+    events.push_back(StreamEvent::kDropped);
+  }
+  if (shown == shown_before) {
+    const auto freeze = freeze_at(camera, frame);
+    events.push_back(freeze && freeze->noise_counts > 0 ? StreamEvent::kNearFrozen
+                                                        : StreamEvent::kFrozen);
+  }
+  if (std::abs(offset_at(camera, seed, shown) - offset_at(camera, seed, shown_before)) >=
+      kLeastJumpCounts) {
+    events.push_back(StreamEvent::kOffsetJump);
+  }
+  if (has_pattern(camera) &&
+      pattern_number(camera, shown) != pattern_number(camera, shown_before)) {
+    events.push_back(StreamEvent::kPatternChanged);
+  }
+  return events;
+}
+
 Sensor::Sensor(const CameraOptions& camera, std::uint64_t seed)
     : camera_(camera),
       seed_(seed),
@@ -93,8 +177,9 @@ void Sensor::update(Pattern& pattern, int frame) const {
   }
   const double age = camera_.drift_s > 0 ? frame / (camera_.rate_hz * camera_.drift_s) : 0.0;
   const double knot = std::floor(age);
-  if (pattern.knot != knot) {
-    const Random random(seed_, pattern.stream);
+  const std::uint64_t number = pattern_number(camera_, frame);
+  if (pattern.knot != knot || pattern.number != number) {
+    const Random random(seed_, pattern.stream + (number << 32));
     const auto first = static_cast<std::uint64_t>(knot) * pattern.size;
     pattern.from.resize(pattern.size);
     pattern.to.resize(pattern.size);
@@ -104,6 +189,7 @@ void Sensor::update(Pattern& pattern, int frame) const {
       pattern.to[i] = random.normal(first + pattern.size + i);
     }
     pattern.knot = knot;
+    pattern.number = number;
   }
   const double t = age - knot;
   const double length = std::sqrt(t * t + (1 - t) * (1 - t));
@@ -115,14 +201,15 @@ void Sensor::update(Pattern& pattern, int frame) const {
 
 void Sensor::expose(ImageView<const float> clean, int frame, ImageView<std::uint16_t> counts,
                     ParallelRunner& runner) {
-  if (pattern_frame_ < 0 || (camera_.drift_s > 0 && pattern_frame_ != frame)) {
+  if (pattern_frame_ < 0 ||
+      ((camera_.drift_s > 0 || camera_.pattern_every > 0) && pattern_frame_ != frame)) {
     for (Pattern* pattern : {&columns_, &rows_, &offsets_, &gains_}) {
       update(*pattern, frame);
     }
     pattern_frame_ = frame;
   }
   const Random temporal(seed_, kTemporal + static_cast<std::uint64_t>(frame));
-  const double jump = offset_after(camera_, seed_, events_before(camera_, frame));
+  const double jump = offset_at(camera_, seed_, frame);
   const auto value_of = [](const Pattern& pattern, std::size_t i) {
     return pattern.sigma > 0 ? pattern.values[i] : 0.0;
   };
@@ -144,6 +231,16 @@ void Sensor::expose(ImageView<const float> clean, int frame, ImageView<std::uint
        draw_pixels(Random(seed_, kDead), camera_.bad_pixels, clean.width(), clean.height())) {
     counts(x, y) = low ? std::uint16_t{0} : kLargestCount;
     low = !low;
+  }
+}
+
+void Sensor::repeat(double noise_counts, int frame, ImageView<std::uint16_t> counts) const {
+  const Random random(seed_, kRepeats + static_cast<std::uint64_t>(frame));
+  std::uint64_t pixel = 0;
+  for (int y = 0; y < counts.height(); ++y) {
+    for (int x = 0; x < counts.width(); ++x) {
+      counts(x, y) = to_count(counts(x, y) + noise_counts * random.normal(pixel++));
+    }
   }
 }
 

@@ -41,6 +41,47 @@ Json to_json(const std::optional<ShutterState>& shutter) {
           {"jump_counts", rounded(shutter->jump_counts, 1e3)}};
 }
 
+const char* name_of(StreamEvent event) {
+  switch (event) {
+    case StreamEvent::kDropped:
+      return "dropped";
+    case StreamEvent::kFrozen:
+      return "frozen";
+    case StreamEvent::kNearFrozen:
+      return "near_frozen";
+    case StreamEvent::kOffsetJump:
+      return "offset_jump";
+    case StreamEvent::kPatternChanged:
+      break;
+  }
+  return "pattern_changed";
+}
+
+Json to_json(const std::optional<FreezeState>& freeze) {
+  if (!freeze) {
+    return nullptr;
+  }
+  return {{"frozen", true},
+          {"shows_frame", freeze->shows_frame},
+          {"noise_counts", rounded(freeze->noise_counts, 1e3)}};
+}
+
+Json to_json(const std::vector<StreamEvent>& events) {
+  Json list = Json::array();
+  for (const StreamEvent event : events) {
+    list.push_back(name_of(event));
+  }
+  return list;
+}
+
+Json to_json(const std::vector<MovedObject>& moved) {
+  Json list = Json::array();
+  for (const MovedObject& one : moved) {
+    list.push_back({{"object", one.object}, {"by_m", {one.by_m.x, one.by_m.y, one.by_m.z}}});
+  }
+  return list;
+}
+
 // Locale-free, with a fixed number of digits after the point.
 std::string fixed(double value, int digits) {
   char text[64];
@@ -78,6 +119,11 @@ std::string truth_line(const TrueFrame& frame) {
         {"k1", i.k1},
         {"k2", i.k2}}},
       {"shutter", to_json(frame.shutter)},
+      {"freeze", to_json(frame.freeze)},
+      {"offset_counts", rounded(frame.offset_counts, 1e3)},
+      {"dropped_frames", frame.dropped_frames},
+      {"events", to_json(frame.events)},
+      {"moved", to_json(frame.moved)},
       {"edges", std::move(edges)}};
   return line.dump() + "\n";
 }

@@ -178,6 +178,15 @@ Sphere read_sphere(Fields& fields, const Surface& surface, const Variation& vary
   return sphere;
 }
 
+Motion read_motion(Fields& fields) {
+  Motion motion;
+  fields.vector("moves_m", motion.by_m);
+  fields.number("moves_from_s", motion.from_s, {-1e6, 1e6});
+  fields.number("moves_in_s", motion.in_s, {0.001, 1e6});
+  fields.flag("moves_back", motion.back);
+  return motion;
+}
+
 Object read_object(const toml::table& table, std::size_t number, std::uint64_t seed,
                    Status& status) {
   Object object;
@@ -190,6 +199,7 @@ Object read_object(const toml::table& table, std::size_t number, std::uint64_t s
   Surface surface;
   fields.surface(surface);
   surface.temperature_degc += vary.degc;
+  object.motion = read_motion(fields);
   if (type == "quad") {
     object.shape = read_quad(fields, surface, vary, status);
   } else if (type == "plane") {

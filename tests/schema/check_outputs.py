@@ -42,6 +42,9 @@ OUTPUTS = [
     ("scale", f"thermedge scale {SMALL} --stable -o v", "v/scale.jsonl"),
     ("truth", "thermedge simulate office -o s --frames 6 --set width=96 --set height=72 "
               "--set shutter_every=3 --set shutter_frames=2", "s/truth.jsonl"),
+    ("truth", "thermedge simulate desk -o t --frames 6 --set width=96 --set height=72 --set box=1 "
+              "--set freeze_every=3 --set freeze_frames=1 --set drop_every=4 --set drop_frames=1",
+     "t/truth.jsonl"),
     ("probe", f"thermedge probe {SMALL} --json", None),
     ("probe", f"thermedge probe {SMALL} --preset paper --camera lepton --json", None),
     ("probe", "thermedge probe d/mask/desk_0000.png --json", None),
@@ -52,6 +55,8 @@ OUTPUTS = [
     ("evaluation", "thermedge evaluate x.jsonl --json", None),
     ("evaluation", "thermedge detect 'sim:office?camera=pi450&path=hand&width=96&height=72&frames=6' "
                    "-o y.jsonl --quiet && thermedge evaluate y.jsonl s/truth.jsonl --json", None),
+    ("evaluation", "thermedge evaluate --tracks y.jsonl s/truth.jsonl --least-frames 1 --json", None),
+    ("evaluation", "thermedge evaluate --tracks y.jsonl --json", None),
     ("log", f"thermedge detect missing.png {SMALL} -o q --json-log 2>&1", None),
     ("log", "thermedge scale 'sim:desk?width=96&height=72' -o w.png --gain 3 --json-log 2>&1", None),
 ]

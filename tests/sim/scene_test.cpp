@@ -236,8 +236,9 @@ TEST(ParseScene, NamesWhatIsWrong) {
   EXPECT_EQ(
       message("sim:desk?camera=magic"),
       "sim:desk?camera=magic: camera=magic: no such camera; there are pi450, boson, lepton35");
-  EXPECT_EQ(message("sim:desk?path=zigzag"),
-            "sim:desk?path=zigzag: path=zigzag: no such path; there are hand, drive, pan, still");
+  EXPECT_EQ(
+      message("sim:desk?path=zigzag"),
+      "sim:desk?path=zigzag: path=zigzag: no such path; there are hand, drive, pan, shake, still");
   EXPECT_EQ(message("sim:desk?seed=1&frames=1.5"),
             "sim:desk?seed=1&frames=1.5: frames=1.5 should be a whole number from 1 to 1000000");
   EXPECT_EQ(message("sim:desk?sigma=loud"),

@@ -61,11 +61,25 @@ class NearestOnCurves {
   [[nodiscard]] Place nearest(Point point) const;
   [[nodiscard]] bool is_near(Point point) const { return nearest(point).distance_px <= reach_px_; }
 
+  // The place on one straight part of a curve that is nearest to a point.
+  struct PartPlace {
+    std::size_t curve = 0;  // index of the curve
+    std::size_t part = 0;   // index of the point that the part begins at
+    double share = 0;       // of the part that lies before the place, 0..1
+    Point foot;             // the place itself
+    Point along;            // unit vector in walking direction; 0 on a lone point
+    Place place;
+  };
+  // Calls visit for each part within reach; a part may come more than once.
+  void visit_near(Point point, const std::function<void(const PartPlace&)>& visit) const;
+
  private:
   struct Segment {
     Point from, to;
+    std::size_t curve = 0, part = 0;
     bool open_from = false, open_to = false;  // nothing follows there
   };
+  [[nodiscard]] PartPlace place_on(const Segment& segment, Point point) const;
   void add_to_cells(std::uint32_t index);
   template <class F>
   void for_each_cell(Point low, Point high, F&& visit) const;

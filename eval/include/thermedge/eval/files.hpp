@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "thermedge/eval/counts.hpp"
@@ -30,6 +31,11 @@ class JsonLines {
  public:
   [[nodiscard]] static Result<JsonLines> read(const std::string& path, const Limits& limits);
   [[nodiscard]] std::size_t size() const { return lines_.size(); }
+  [[nodiscard]] std::string_view text(std::size_t index) const {
+    return std::string_view(text_).substr(lines_[index].begin, lines_[index].length);
+  }
+  // File and line, for messages.
+  [[nodiscard]] std::string label(std::size_t index) const;
   // Errors name file and line.
   [[nodiscard]] Result<CurveFrame> frame(std::size_t index) const;
 

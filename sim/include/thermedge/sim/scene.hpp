@@ -43,18 +43,44 @@ struct CameraOptions {
   int shutter_every = 0;           // frames from one shutter event to the next, 0..1e6; 0: none
   int shutter_frames = 24;         // length of the freeze, frames, 1..1e6
   double shutter_jump_counts = 8;  // standard deviation of the jump after it, counts, 0..5000
+
+  // What else goes wrong in recordings. Each comes back after a number of frames of the camera's
+  // clock, the first time after as many; 0: never.
+  int freeze_every = 0;    // the picture is repeated for a while, 0..1e6
+  int freeze_frames = 12;  // that long, 1..1e6, less than freeze_every
+  double freeze_noise =
+      0;               // new noise on the repeated picture, share of sigma_counts, 0..1; 0: none
+  int jump_every = 0;  // the level jumps away, and the next time back, 0..1e6
+  double jump_counts = 40;  // by 0.5 to 1.5 times that, counts, 0..5000
+  int pattern_every = 0;    // the fixed pattern becomes another one at once, 0..1e6
+  int drop_every = 0;       // frames get lost, 0..1e6
+  int drop_frames = 2;      // as many, 1..1e6, less than drop_every
 };
 
-enum class PathKind { kHand, kDrive, kPan, kStill };
+// Things that move, besides the scene's own; docs/scenes.md tells where. Speeds are px a frame at
+// their distance, straight ahead.
+struct MovingThings {
+  int box = 0;                 // 1: a box that moves from side to side
+  double box_speed_px = 1;     // 0..100
+  double box_warmer_degc = 2;  // than what the scene's surfaces mirror, -100..100
+  int hot = 0;                 // 1: a hot thing that comes in from the left and stays
+  double hot_at_s = 1;         // when its way begins, just outside the picture, 0..1e6
+  double hot_speed_px = 4;     // 0.01..100
+  double hot_degc = 60;        // 0..1000
+};
+
+enum class PathKind { kHand, kDrive, kPan, kShake, kStill };
 
 struct SceneOptions {
   std::string name = "desk";  // a name of scene_names(), or a file that ends in .toml
   std::uint64_t seed = 1;     // noise, pattern, path, and what the scene lets vary, 0..9e15
   int frames = 1;             // 1..1e6
   PathKind path = PathKind::kHand;
+  double path_speed = 1;              // how much faster the camera goes its path, 0..100
   double least_contrast_counts = 10;  // smaller steps are no edges, counts, 0..5000
   bool depth = false;                 // render TrueFrame::depth_mm
   CameraOptions camera;
+  MovingThings moving;
 };
 
 struct Point {
@@ -96,8 +122,29 @@ struct ShutterState {
   double jump_counts = 0;  // offset since the event before this frame, relative to before it
 };
 
+// The picture is that of an earlier frame, though the shutter is open.
+struct FreezeState {
+  int shows_frame = 0;
+  double noise_counts = 0;  // standard deviation of new noise on it
+};
+
+// What a tracker should tell of a frame.
+enum class StreamEvent {
+  kDropped,         // frames before it are missing
+  kFrozen,          // the picture of the last frame again, exactly
+  kNearFrozen,      // but for new noise
+  kOffsetJump,      // the level of all pixels is off by 2 counts or more from the last frame's
+  kPatternChanged,  // the fixed pattern is another one than in the last frame
+};
+
+// An object that is not where it was at the beginning.
+struct MovedObject {
+  int object = 0;  // as TrueEdge::object
+  Vec3 by_m;
+};
+
 struct TrueFrame {
-  int index = 0;
+  int index = 0;  // of the camera's clock: frames that are dropped have one, too
   std::int64_t stamp_ns = 0;
   Image<std::uint16_t> counts;  // as the camera gives them
   Image<float> clean;           // without noise, pattern and bad pixels, counts
@@ -106,6 +153,11 @@ struct TrueFrame {
   Pose pose;
   Intrinsics intrinsics;
   std::optional<ShutterState> shutter;  // in frozen frames and in the first frame after
+  std::optional<FreezeState> freeze;    // in frozen frames that the shutter doesn't explain
+  double offset_counts = 0;             // of all pixels of the picture, by shutter and jumps
+  int dropped_frames = 0;               // that are missing before this one
+  std::vector<StreamEvent> events;      // in the order of StreamEvent
+  std::vector<MovedObject> moved;       // objects that can move, in their order
 };
 
 // Renders the frames of one scene. Keeps what frames have in common, and scratch memory.
@@ -118,8 +170,8 @@ class Renderer {
   Renderer& operator=(Renderer&&) noexcept;
   ~Renderer();
 
-  // Frame `index` (0 .. frames - 1), in any order. The same options and index give the same bits on
-  // every machine and for every runner. Error: no such frame.
+  // Frame `index` (0 .. frames - 1) of those that are not dropped, in any order. The same options
+  // and index give the same bits on every machine and for every runner. Error: no such frame.
   [[nodiscard]] Result<TrueFrame> render(int index, ParallelRunner& runner);
   [[nodiscard]] const SceneOptions& options() const;
 
@@ -133,8 +185,9 @@ class Renderer {
 [[nodiscard]] Result<TrueFrame> render(const SceneOptions& options, int index);
 
 // Parses "sim:NAME[?key=value&...]": NAME as SceneOptions::name; keys camera (a name of
-// camera_names(), applied first), path (hand, drive, pan, still), seed, frames, netd_mk, and the
-// fields of CameraOptions without their units. Errors name the key and list what is known.
+// camera_names(), applied first), path (hand, drive, pan, shake, still), path_speed, seed, frames,
+// netd_mk, and the fields of CameraOptions and MovingThings without their units. Errors name the
+// key and list what is known.
 [[nodiscard]] Result<SceneOptions> parse_scene(std::string_view spec);
 
 // Sets one of these keys from text, e.g. ("netd_mk", "60"). Errors name the key.

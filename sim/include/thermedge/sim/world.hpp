@@ -72,11 +72,23 @@ struct Sphere {
   Surface surface;
 };
 
+// A straight way at constant speed.
+struct Motion {
+  Vec3 by_m;          // from the object's place to the end of its way; 0: it stands still
+  double from_s = 0;  // when it sets out, -1e6..1e6
+  double in_s = 1;    // how long it takes, 0.001..1e6
+  bool back = false;  // and back again, for ever; else it stays there
+};
+
 // Objects may touch and pierce each other. Cuts of two cylinders, of a sphere with a cylinder
-// beside its axis, and of a face along a cylinder's axis have no true edge.
+// beside its axis, and of a face along a cylinder's axis have no true edge; nor have cuts with
+// objects that move.
 struct Object {
   std::string name;
   std::variant<Quad, Box, Cylinder, Sphere> shape;
+  Motion motion{};
+
+  [[nodiscard]] bool moves() const { return motion.by_m != Vec3{}; }
 };
 
 // Where the camera begins, and where it drives.
