@@ -2,12 +2,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <memory>
 
 #include "command_tree.hpp"
 #include "commands.hpp"
 #include "common.hpp"
+#include "standard_output.hpp"
 #include "thermedge/io/config.hpp"
 #include "thermedge/io/source_options.hpp"
 
@@ -297,8 +297,8 @@ void add_completion(CLI::App& program, int& exit_code) {
   app.callback([shell, &program, &exit_code] {
     const auto* known = std::find_if(kShells.begin(), kShells.end(),
                                      [&](const Shell& other) { return other.name == *shell; });
-    fmt::print("{}", known->script(command_text(program), commands_of(program)));
-    exit_code = std::fflush(stdout) == 0 ? kGood : kBadInput;
+    print(known->script(command_text(program), commands_of(program)));
+    exit_code = kGood;
   });
 }
 

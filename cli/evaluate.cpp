@@ -99,7 +99,7 @@ Status EvaluateCommand::check_output() const {
 Result<std::string> EvaluateCommand::judge(Console& report) const {
   if (tracks.on) {
     return tracks.run(found, truth, least_contrast_counts.value_or(-1), options.sigma_counts,
-                      threads, as_json(), report);
+                      threads.value_or(0), as_json(), report);
   }
   return eval::PredictionSet::open(found).and_then([&](const eval::PredictionSet& opened) {
     return truth.empty() ? alone(opened, report) : with_truth(opened, report);

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cstdio>
 #include <filesystem>
 #include <memory>
 
@@ -11,6 +10,7 @@
 #include "commands.hpp"
 #include "common.hpp"
 #include "help.hpp"
+#include "standard_output.hpp"
 #include "thermedge/io/write.hpp"
 #include "thermedge/presets.hpp"
 #include "thermedge/version.hpp"
@@ -138,9 +138,8 @@ int ManCommand::run(const CLI::App& program) const {
   const std::vector<CommandText> commands = commands_of(program);
   const auto found = std::find_if(commands.begin(), commands.end(),
                                   [&](const CommandText& text) { return text.name == command; });
-  fmt::print("{}",
-             found == commands.end() ? page_of(command_text(program), commands) : page_of(*found));
-  return std::fflush(stdout) == 0 ? kGood : kBadInput;
+  print(found == commands.end() ? page_of(command_text(program), commands) : page_of(*found));
+  return kGood;
 }
 
 }  // namespace

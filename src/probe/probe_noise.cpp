@@ -85,6 +85,8 @@ void TiledNoise::filter(ImageView<const std::uint16_t> frame) {
   residual_.resize(frame.width() - 2, frame.height() - 2);
   slope_.resize(frame.width() - 2, frame.height() - 2);
   counts_.resize(frame.width() - 2, frame.height() - 2);
+  change_.resize(counts_.width(), counts_.height());  // not first when a frame changes
+  change_slope_.resize(counts_.width(), counts_.height());
   for (int y = 0; y < residual_.height(); ++y) {
     const std::uint16_t* above = frame.row(y);
     const std::uint16_t* row = frame.row(y + 1);
@@ -132,8 +134,6 @@ double TiledNoise::tile_variance(const Tile& tile, double gain, F&& value) {
 void TiledNoise::fill_change() {
   const int width = counts_.width();
   const int height = counts_.height();
-  change_.resize(width, height);
-  change_slope_.resize(width, height);
   const int lag = std::min({tuning_.change_lag_px, width / 2, height / 2});
   const auto change = [&](int x, int y) { return counts_(x, y) - previous_counts_(x, y); };
   const auto slope = [&](int x, int y) { return std::max(slope_(x, y), previous_slope_(x, y)); };

@@ -280,7 +280,7 @@ TEST_F(Inputs, AreNeverReplaced) {
   EXPECT_TRUE(fs::is_symlink(directory_ / "link.png"));
   // Beside the inputs there is room.
   EXPECT_EQ(output_of("scale in/a.png --gain 0.1 -o in/a8.png"), "");
-  EXPECT_EQ(output_of("scale in --gain 0.1 -o in/eight_bits"), "");
+  EXPECT_EQ(run("scale in --gain 0.1 -o in/eight_bits").exit_code, 0);
 }
 
 TEST_F(Inputs, SceneFilesAreNotReplaced) {

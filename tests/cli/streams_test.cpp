@@ -176,8 +176,9 @@ TEST_F(Streams, AFullStandardOutputIsOneErrorEverywhere) {
   const std::string scene = kThreeFrames;
   for (const std::string& arguments :
        {"detect " + scene, "detect " + scene + "-o -", "detect " + scene + "-o - --json-log",
-        "trace " + std::string("frame.png frame.png -o -"), std::string("probe frame.png"),
-        std::string("probe frame.png --json"), std::string("bench frame.png --seconds 0"),
+        "trace " + std::string("frame.png frame.png -o - --threshold 128"),
+        std::string("probe frame.png"), std::string("probe frame.png --json"),
+        std::string("bench frame.png --seconds 0"),
         std::string("bench frame.png --seconds 0 --json"),
         std::string("evaluate frame.png frame.png"), std::string("evaluate frame.png --json"),
         std::string("detect --dump-config"), std::string("denoise --dump-config"),
@@ -207,7 +208,8 @@ TEST_F(Streams, AFullDiskEndsAStreamWithOneError) {
 TEST_F(Streams, QuietSaysNothing) {
   const std::string scene = "'sim:empty?width=96&height=72&frames=2' --quiet ";
   for (const std::string& arguments :
-       {"detect " + scene, "detect -o out " + scene, "trace " + scene, "scale -o view " + scene,
+       {"detect " + scene, "detect -o out " + scene, "trace --threshold 3100 " + scene,
+        "scale -o view " + scene,
         std::string("simulate desk --set width=96 --frames 2 -o made --quiet")}) {
     const auto result = run(arguments);
     EXPECT_EQ(result.exit_code, 0) << arguments << result.err;

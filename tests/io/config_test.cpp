@@ -65,7 +65,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         BadConfig{"[canny]\nlow = 1\n",
                   "robot.toml: line 2: unknown option 'canny.low'; did you mean "
-                  "canny.low_over_high?"},
+                  "canny.blur or canny.low_over_high?"},
         BadConfig{"[cany]\n", "robot.toml: line 1: unknown option 'cany'; did you mean canny?"},
         BadConfig{"[contours]\ngap_px = 1.5\n",
                   "robot.toml: line 2: contours.gap_px = 1.5 should be a whole number"},

@@ -233,7 +233,8 @@ struct ProbeTuning {
 };
 
 // Looks at a recording frame by frame. Memory: a few pictures, whatever the number of frames.
-// After the second frame add() allocates nothing. Not thread-safe: one probe per thread.
+// After the second frame add() allocates nothing but for the first frames in which it looks for
+// faults of the input. Not thread-safe: one probe per thread.
 // The same frames give the same report everywhere. Cost: about 11 ms a frame of 382x288.
 class RecordingProbe {
  public:
