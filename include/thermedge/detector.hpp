@@ -15,10 +15,21 @@
 
 namespace thermedge {
 
+// Sees each frame when it is corrected (pixels that are no measurement filled, bad pixels replaced,
+// stripes removed) and not yet denoised.
+class CorrectedFrameListener {
+ public:
+  virtual ~CorrectedFrameListener() = default;
+  // The views hold during the call only.
+  virtual void on_corrected(ImageView<const std::uint16_t> counts,
+                            const Corrections& corrections) = 0;
+};
+
 // Extras that a call may ask for besides the result.
 struct DetectRequest {
   Intermediates* intermediates = nullptr;  // filled where given; costs time
   std::stop_token stop;                    // looked at between stages; the error is kCancelled then
+  CorrectedFrameListener* listener = nullptr;  // called where given, by the calling thread
 };
 
 // Detects edges frame by frame. Not thread-safe: one detector per thread; it spreads the work of a

@@ -80,7 +80,7 @@ struct Detector::Impl {
   Status guarded(const Detection& found, const DetectRequest& request, Run&& run) {
     const SimdScope scope(simd);
     try {
-      return run(detail::Call{runner, request.stop, request.intermediates});
+      return run(detail::Call{runner, request.stop, request.intermediates, request.listener});
     } catch (const std::bad_alloc&) {
       return failure(ErrorCode::kOutOfMemory, "frame of " + std::to_string(found.width) + "x" +
                                                   std::to_string(found.height) +

@@ -12,6 +12,7 @@ Status PaperPipeline::detect(const Frame& frame, const Call& call, Detection& fo
   StageClock clock(found.times, call.stop);
   counts_ = preprocessor_.run(frame, call.runner, found.corrections);
   THERMEDGE_TRY(clock.lap("correct", {}));
+  call.tell_corrected(counts_, found.corrections);
   THERMEDGE_TRY(clock.lap("scale", scale(frame.bits, found)));
   THERMEDGE_TRY(clock.lap("denoise", denoise(frame.bits, call.runner, found)));
   THERMEDGE_TRY(clock.lap("edge_pixels", find_edge_pixels(call.runner, found)));

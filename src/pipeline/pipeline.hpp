@@ -8,6 +8,7 @@
 #include <stop_token>
 
 #include "thermedge/detection.hpp"
+#include "thermedge/detector.hpp"
 #include "thermedge/frame.hpp"
 #include "thermedge/options.hpp"
 #include "thermedge/parallel_runner.hpp"
@@ -19,7 +20,14 @@ namespace thermedge::detail {
 struct Call {
   ParallelRunner& runner;
   std::stop_token stop;
-  Intermediates* intermediates;  // null: not wanted
+  Intermediates* intermediates;      // null: not wanted
+  CorrectedFrameListener* listener;  // null: none
+
+  void tell_corrected(ImageView<const std::uint16_t> counts, const Corrections& corrections) const {
+    if (listener != nullptr) {
+      listener->on_corrected(counts, corrections);
+    }
+  }
 };
 
 class Pipeline {

@@ -20,6 +20,7 @@ Status RobustPipeline::detect(const Frame& frame, const Call& call, Detection& f
   take_told_noise(found.corrections);
   find_noise_scale(found);
   THERMEDGE_TRY(clock.lap("correct", {}));
+  call.tell_corrected(counts_, found.corrections);
   THERMEDGE_TRY(clock.lap("denoise", denoise(call.runner, found)));
   THERMEDGE_TRY(clock.lap("edge_pixels", find_edge_pixels(call.runner, found)));
   THERMEDGE_TRY(clock.lap("contours", graph_.run(pixels_.edges, pixels_.response, traced_)));
