@@ -6,6 +6,7 @@
 namespace thermedge::cli {
 
 void add_detect(CLI::App& program, int& exit_code);
+void add_track(CLI::App& program, int& exit_code);
 void add_trace(CLI::App& program, int& exit_code);
 void add_scale(CLI::App& program, int& exit_code);
 void add_denoise(CLI::App& program, int& exit_code);

@@ -68,6 +68,10 @@ std::vector<Example> examples_of(const std::string& command) {
        {{"thermedge detect frame.png -o edges.png", "the mask of the edges of one frame"},
         {"thermedge detect recording/ --preset fast -o out --write overlay,json",
          "overlays and edges of every frame of a directory"}}},
+      {"track",
+       {{"thermedge track recording/ -o tracks.jsonl", "edges with identities, a line a frame"},
+        {"thermedge track 'sim:desk?path=shake&frames=100' -o out --write overlay",
+         "pictures of a simulated stream, a colour an identity"}}},
       {"trace",
        {{"thermedge trace map.png -o edges.json", "edges of one binary edge map"},
         {"thermedge trace maps/ -o out --write json,svg", "of every map of a directory"}}},
@@ -86,6 +90,13 @@ std::vector<Example> examples_of(const std::string& command) {
        {{"thermedge compare frame.png -o compare.png", "all detectors on one sheet"},
         {"thermedge compare recording/ -o out --write canny,thermedge",
          "and two of the edge maps for every frame"}}},
+      {"radiation",
+       {{"thermedge radiation -o planck.png", "Planck's curves of the usual temperatures"},
+        {"thermedge radiation -o planck.svg --kelvin 290,310,330", "of three bodies, as vectors"}}},
+      {"snr",
+       {{"thermedge snr clear.png noisy.png -o snr.png", "two frames side by side"},
+        {"thermedge snr 'sim:desk?frames=1' 'sim:desk?frames=1&sigma=40' -o snr.png",
+         "the same scene with two levels of noise"}}},
       {"bench",
        {{"thermedge bench recording/ --threads 2", "times of the stages on two cores"},
         {"thermedge bench 'sim:desk?frames=20' --preset fast --json",
@@ -153,7 +164,10 @@ const std::vector<ExitCode>& exit_codes() {
        "an input could not be read or a result could not be written; the other inputs "
        "were processed"},
       {kBadUsage,
-       "the command line, or an option in a file of options, is wrong; nothing was done"}};
+       "the command line, or an option in a file of options, is wrong; nothing was done"},
+      {130,
+       "Ctrl-C ended the run behind the frame in work (143: SIGTERM, 129: SIGHUP); all results "
+       "up to there are whole"}};
   return codes;
 }
 

@@ -11,8 +11,8 @@
 #include "command_tree.hpp"
 #include "commands.hpp"
 #include "console.hpp"
-#include "standard_output.hpp"
 #include "help.hpp"
+#include "standard_output.hpp"
 #include "thermedge/simd.hpp"
 #include "thermedge/similar_names.hpp"
 #include "thermedge/version.hpp"
@@ -48,6 +48,7 @@ std::string joined(const std::vector<std::string>& words) {
 
 void add_commands(CLI::App& program, int& exit_code) {
   add_detect(program, exit_code);
+  add_track(program, exit_code);
   add_trace(program, exit_code);
   add_scale(program, exit_code);
   add_denoise(program, exit_code);

@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <string_view>
 
+#include "picture_kinds.hpp"
 #include "standard_output.hpp"
 #include "thermedge/figures/explained_overlay.hpp"
 #include "thermedge/io/overlay.hpp"
@@ -24,10 +24,6 @@ constexpr std::array kKinds = {Kind{"mask", ".png"},    Kind{"strength", ".png"}
                                Kind{"labels", ".png"},  Kind{"json", ".json"},
                                Kind{"csv", ".csv"},     Kind{"svg", ".svg"},
                                Kind{"overlay", ".png"}, Kind{"distance", ".png"}};
-
-// The distance picture holds 1/256 px in 16 bits, so it reaches 255 px.
-constexpr float kDistanceUnitsPerPx = 256;
-constexpr float kMaxDistancePx = 255;
 
 const Kind* find_kind(std::string_view name) {
   const auto* found =
@@ -266,17 +262,12 @@ Status ResultWriter::write_kind(const std::string& kind, const std::string& path
     kind == "mask" ? draw_mask(detection.edges, grey8_) : draw_strength(detection.edges, grey8_);
     return io::write_picture(path, ImageView<const std::uint8_t>(grey8_.view()));
   }
-  grey16_.resize(width, height);
   if (kind == "labels") {
+    grey16_.resize(width, height);
     draw_labels(detection.edges, grey16_);
   } else {
     distance_transform_.run(detection.edges, width, height, kMaxDistancePx, distance_);
-    for (int y = 0; y < height; ++y) {
-      const float* distance = distance_.distance_px.row(y);
-      std::transform(distance, distance + width, grey16_.row(y), [](float px) {
-        return static_cast<std::uint16_t>(std::lround(px * kDistanceUnitsPerPx));
-      });
-    }
+    draw_distance(distance_, grey16_);
   }
   return io::write_picture(path, ImageView<const std::uint16_t>(grey16_.view()));
 }

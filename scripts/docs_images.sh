@@ -25,6 +25,10 @@ if [ -d "$frames" ]; then
       cp "$work/pi450/frame$frame/$detector.png" "$out/pi450_${frame: -2}_$detector.png"
     done
   done
+  "$thermedge" track "$frames" -o "$work/tracks" --write overlay --lines-only --quiet
+  for frame in 20 30 40 50; do
+    cp "$work/tracks/overlay/frame0000$frame.png" "$out/pi450_tracks_$frame.png"
+  done
 else
   echo "$frames is missing: the line drawings of the PI450 stay as they are"
 fi

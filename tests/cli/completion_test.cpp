@@ -79,8 +79,8 @@ TEST_F(Completion, BashKnowsCommandsOptionsValuesAndFiles) {
 // All options of --help, of every command.
 TEST_F(Completion, BashHasEveryOptionOfTheHelp) {
   for (const std::string command :
-       {"detect", "trace", "scale", "denoise", "stages", "compare", "bench", "probe", "simulate",
-        "evaluate", "completion", "man"}) {
+       {"detect", "track", "trace", "scale", "denoise", "stages", "compare", "bench", "probe",
+        "simulate", "evaluate", "completion", "man"}) {
     std::istringstream help(output_of(command + " --help"));
     const Lines offered = bash(command + " --");
     std::size_t options = 0;
@@ -161,7 +161,7 @@ TEST_F(Completion, ManualPagesHaveEveryOption) {
     EXPECT_NE(text_of("rendered.txt").find("EXAMPLES"), std::string::npos);
     ++pages;
   }
-  EXPECT_EQ(pages, 13U);
+  EXPECT_EQ(pages, 16U);
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kCommands[] = {"detect",  "trace", "scale", "denoise",  "stages",
+constexpr const char* kCommands[] = {"detect",  "track", "trace", "scale",    "denoise", "stages",
                                      "compare", "bench", "probe", "simulate", "evaluate"};
 
 class Messages : public ProgramTest {
@@ -31,7 +31,7 @@ class Messages : public ProgramTest {
 
 TEST_F(Messages, UnknownWordsAreBadUsage) {
   std::vector<BadCase> cases = {
-      {"", 2, "a command is missing; there are detect, trace"},
+      {"", 2, "a command is missing; there are detect, track, trace"},
       {"detekt frame.pgm", 2, "detekt: no such command; did you mean detect?"},
       {"--magic", 2, "--magic: no such command"}};
   for (const std::string command : kCommands) {

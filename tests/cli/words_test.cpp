@@ -121,7 +121,7 @@ TEST_F(Words, AWrongWordIsAnsweredWithWhatWasMeant) {
       {{"detct x", 2, "detct: no such command; did you mean detect?"},
        {"Detect x", 2, "did you mean detect?"},
        {"sim desk", 2, "did you mean simulate?"},
-       {"zebra", 2, "zebra: no such command; there are detect, trace"},
+       {"zebra", 2, "zebra: no such command; there are detect, track, trace"},
        {"detect x --presett fast", 2,
         "--presett: detect has no such option; did you mean --preset?"},
        {"detect x --crpo=all", 2, "--crpo: detect has no such option; did you mean --crop?"},
@@ -152,8 +152,8 @@ TEST_F(Words, HelpAndVersionAreAlsoWords) {
 
 TEST_F(Words, EveryHelpHasGroupsExamplesAndPresets) {
   for (const std::string command :
-       {"detect", "trace", "scale", "denoise", "stages", "compare", "bench", "probe", "simulate",
-        "evaluate", "completion", "man"}) {
+       {"detect", "track", "trace", "scale", "denoise", "stages", "compare", "bench", "probe",
+        "simulate", "evaluate", "completion", "man"}) {
     const std::string help = output_of(command + " --help");
     std::istringstream lines(help);
     std::size_t examples = 0;

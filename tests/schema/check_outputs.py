@@ -39,6 +39,9 @@ OUTPUTS = [
     ("frame", "thermedge trace d/mask/desk_0000.png --preset paper -o -", None),
     ("frame", "thermedge denoise 'sim:desk?width=96&height=72' -o f.npy --quiet && "
               "thermedge detect f.npy -o -", None),
+    ("frame", f"thermedge track {SMALL} -o -", None),
+    ("frame", "thermedge track 'sim:corridor?width=96&height=72&frames=9&freeze_every=3&freeze_frames=2' -o t.jsonl",
+     "t.jsonl"),
     ("scale", f"thermedge scale {SMALL} --stable -o v", "v/scale.jsonl"),
     ("truth", "thermedge simulate office -o s --frames 6 --set width=96 --set height=72 "
               "--set shutter_every=3 --set shutter_frames=2", "s/truth.jsonl"),

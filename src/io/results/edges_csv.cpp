@@ -1,12 +1,11 @@
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <iterator>
 #include <string>
 #include <string_view>
 
+#include "results/csv_text.hpp"
 #include "results/digits.hpp"
 #include "thermedge/io/edges_file.hpp"
 
@@ -16,31 +15,6 @@ namespace {
 constexpr std::string_view kHeader =
     "frame,stamp_ns,edge,status,score,contrast_counts,point,x_px,y_px,normal_x,normal_y,"
     "strength_counts_per_px,position_sigma_px,is_corner\n";
-
-// A row of cells; numbers do not depend on the locale.
-class CsvText {
- public:
-  CsvText& operator<<(std::string_view cell) {
-    text_ += cell;
-    text_ += ',';
-    return *this;
-  }
-  CsvText& operator<<(std::int64_t cell) { return append(cell); }
-  // Empty where it is not finite.
-  CsvText& operator<<(double cell) { return std::isfinite(cell) ? append(cell) : *this << ""; }
-  void end_row() { text_.back() = '\n'; }
-  [[nodiscard]] const std::string& text() const { return text_; }
-
- private:
-  template <class T>
-  CsvText& append(T cell) {
-    char digits[32];
-    const auto written = std::to_chars(std::begin(digits), std::end(digits), cell);
-    return *this << std::string_view(std::begin(digits), written.ptr);
-  }
-
-  std::string text_;
-};
 
 void append_edge(CsvText& csv, const std::string& frame, const EdgeSet& set, const Edge& edge) {
   const Edgels& e = set.edgels;

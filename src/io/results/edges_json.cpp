@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "results/digits.hpp"
+#include "results/edges_json.hpp"
 #include "thermedge/io/edges_file.hpp"
 
 namespace thermedge::io {
@@ -161,8 +162,8 @@ Json to_json(const InvalidPixels& invalid) {
 
 }  // namespace
 
-std::string edges_to_json(const Detection& detection, const std::string& source,
-                          const EdgesFileOptions& options) {
+nlohmann::ordered_json frame_json(const Detection& detection, const std::string& source,
+                                  const EdgesFileOptions& options) {
   const EdgeSet& set = detection.edges;
   Json edges = Json::array();
   for (const Edge& edge : set.kept_edges()) {
@@ -198,8 +199,17 @@ std::string edges_to_json(const Detection& detection, const std::string& source,
   if (options.dropped_edges) {
     document["dropped_edges"] = dropped_edges(set, options);
   }
-  // A name that is not UTF-8 is shown with replacement characters rather than refused.
+  return document;
+}
+
+// A name that is not UTF-8 is shown with replacement characters rather than refused.
+std::string json_line(const nlohmann::ordered_json& document) {
   return document.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string edges_to_json(const Detection& detection, const std::string& source,
+                          const EdgesFileOptions& options) {
+  return json_line(frame_json(detection, source, options));
 }
 
 }  // namespace thermedge::io

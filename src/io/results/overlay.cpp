@@ -1,10 +1,12 @@
 #include "thermedge/io/overlay.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
 #include "thermedge/io/colour_map.hpp"
+#include "thermedge/io/tracks_file.hpp"
 
 namespace thermedge::io {
 namespace {
@@ -187,6 +189,33 @@ void draw_overlay(const Detection& detection, ImageView<const std::uint16_t> cou
   for (const Junction& junction : set.junctions) {
     canvas.ring(static_cast<float>(junction.at.x), static_cast<float>(junction.at.y),
                 {90, 220, 255});
+  }
+}
+
+Rgb track_colour(std::int64_t track) {
+  constexpr std::array kOkabeIto = {Rgb{230, 159, 0},  Rgb{86, 180, 233}, Rgb{0, 158, 115},
+                                    Rgb{240, 228, 66}, Rgb{0, 114, 178},  Rgb{213, 94, 0},
+                                    Rgb{204, 121, 167}};
+  // Neighbours in number are often neighbours in the picture: the same colour comes late.
+  return kOkabeIto[static_cast<std::size_t>(track) % kOkabeIto.size()];
+}
+
+void draw_tracks(const TrackedFrame& frame, ImageView<const std::uint16_t> counts,
+                 Image<Rgb>& overlay) {
+  constexpr Rgb kNoTrack = {130, 130, 130};
+  const Detection& detection = frame.detection;
+  overlay.resize(detection.width * kScale, detection.height * kScale);
+  draw_background(detection, counts, overlay);
+  Canvas canvas(overlay);
+  const Edgels& e = detection.edges.edgels;
+  for (const Edge& edge : detection.edges.kept_edges()) {
+    const std::uint32_t last = edge.edgels.first + edge.edgels.count - 1;
+    for (std::uint32_t i = edge.edgels.first; i <= last; ++i) {
+      const std::uint32_t next = i < last ? i + 1 : (edge.closed ? edge.edgels.first : last);
+      const std::int64_t track = frame.tracks.track[i];
+      canvas.line(e.x[i], e.y[i], e.x[next], e.y[next],
+                  track >= 0 ? track_colour(track) : kNoTrack);
+    }
   }
 }
 
