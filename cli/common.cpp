@@ -136,7 +136,8 @@ Result<io::SourceOptions> CommonOptions::source_options(io::SourceOptions source
 Status CommonOptions::check() const {
   if (inputs.empty()) {
     return failure(ErrorCode::kInvalidArgument,
-                   "INPUT is required: a file, directory, glob, - or sim:NAME");
+                   "INPUT is required: a file, directory, glob, - or sim:NAME (a word after an "
+                   "option that takes a value is that value)");
   }
   if (const auto target = SimdTarget::named(simd); !target) {
     return failure(target.error().code, "--simd: " + target.error().message);

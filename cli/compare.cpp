@@ -157,12 +157,12 @@ void add_compare(CLI::App& program, int& exit_code) {
   denoisers.emplace_back(kSame);
   app.add_option("--denoise", command->classical_denoiser,
                  "input of the classical detectors: same (the picture that thermedge denoised), or "
-                 "the 8-bit view behind none, gaussian, nlm or bm3d; --set denoise.method=... sets "
+                 "the 8-bit view after none, gaussian, nlm or bm3d; --set denoise.method=... sets "
                  "thermedge's own denoiser")
       ->check(CLI::IsMember(denoisers))
       ->capture_default_str();
   app.add_option("--canny-sigma", command->classical.canny_sigma_px,
-                 "Gaussian in front of the classical Canny, px (0: none)")
+                 "Gaussian before the classical Canny, px (0: none)")
       ->check(CLI::Range(0.0, 20.0))
       ->capture_default_str();
   app.add_option("--canny-high", command->canny_high,

@@ -10,6 +10,11 @@ namespace thermedge::cli {
 
 void EdgeCommand::add_to(CLI::App& app) {
   DetectorCommand::add_to(app);
+  app.get_option("--output")
+      ->description(
+          "file (.png, .json and .svg: of one frame; .jsonl and .csv: of all), directory, or - for "
+          "JSON "
+          "lines on standard output");
   app.add_option("--write", write,
                  "for -o DIR: mask,strength,labels,json,csv,svg,overlay,distance (default mask)");
   app.add_option("--points", points,

@@ -43,6 +43,17 @@ Result<FigureOutput> FigureOutput::create(const std::string& output, const std::
   });
 }
 
+Result<FigureOutput> FigureOutput::create_file(const std::string& output,
+                                               const InputFiles& inputs) {
+  const auto target = parse_output(output, kEndings);
+  if (!target || target->kind != OutputKind::kFile) {
+    return failure(ErrorCode::kInvalidArgument,
+                   output.empty() ? "-o is required: a .png, .svg or .pdf"
+                                  : "-o " + output + ": should be a file, .png, .svg or .pdf");
+  }
+  return create(output, target->ending.substr(1), inputs);
+}
+
 void FigureOutput::add_options_to(CLI::App& app, std::string& format, double& panel_width) {
   app.add_option("--format", format, "of the figures in -o DIR: png, svg or pdf")
       ->check(CLI::IsMember({"png", "svg", "pdf"}))

@@ -19,6 +19,10 @@ class FigureOutput {
                                                    const InputFiles& inputs,
                                                    const std::vector<std::string>& beside = {});
 
+  // The same for a sheet that is always one file.
+  [[nodiscard]] static Result<FigureOutput> create_file(const std::string& output,
+                                                        const InputFiles& inputs);
+
   // Once per frame, before the others.
   void begin_frame(const std::string& stem);
   [[nodiscard]] Room room() const { return single_ ? Room::kOne : Room::kMany; }

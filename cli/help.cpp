@@ -166,7 +166,8 @@ const std::vector<ExitCode>& exit_codes() {
       {kBadUsage,
        "the command line, or an option in a file of options, is wrong; nothing was done"},
       {130,
-       "Ctrl-C ended the run behind the frame in work (143: SIGTERM, 129: SIGHUP); all results "
+       "Ctrl-C ended the run after the frame that was being processed (143: SIGTERM, 129: SIGHUP); "
+       "all results "
        "up to there are whole"}};
   return codes;
 }

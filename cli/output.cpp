@@ -52,8 +52,7 @@ Result<OutputTarget> parse_output(const std::string& output,
   if (endings.empty()) {
     return failure(
         ErrorCode::kInvalidArgument,
-        fmt::format("-o {}: should be a directory; its name, should it have a dot in it, "
-                    "should end in /",
+        fmt::format("-o {}: should be a directory; where its name has a dot in it, end it in /",
                     output));
   }
   if (std::find(endings.begin(), endings.end(), ending) == endings.end()) {

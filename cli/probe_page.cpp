@@ -222,10 +222,11 @@ void Page::stripes() {
     return;
   }
   row("columns", fmt::format("{:.2f}", report_.column_sigma_counts),
-      fmt::format("upright stripes: {}",
+      fmt::format("vertical stripes: {}",
                   grade(kStripeGrades, report_.column_sigma_counts / sigma)));
   row("rows", fmt::format("{:.2f}", report_.row_sigma_counts),
-      fmt::format("level stripes: {}", grade(kStripeGrades, report_.row_sigma_counts / sigma)));
+      fmt::format("horizontal stripes: {}",
+                  grade(kStripeGrades, report_.row_sigma_counts / sigma)));
 }
 
 // Mean of sigma over the tiles of a cell.
@@ -243,7 +244,8 @@ std::string Page::map_row(int row) const {
         ++tiles;
       }
     }
-    text += fmt::format("{:>6.1f}", sum / tiles);
+    const double sigma = sum / tiles;
+    text += fmt::format("{:>7.{}f}", sigma, sigma < 1 ? 3 : sigma < 100 ? 1 : 0);
   }
   return text;
 }

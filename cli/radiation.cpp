@@ -21,13 +21,9 @@ struct RadiationCommand {
 
 int RadiationCommand::draw() const {
   Console report(false, false);
-  auto target = FigureOutput::create(output, "png", {});
+  auto target = FigureOutput::create_file(output, {});
   if (!target) {
     return report.fail(target.error());
-  }
-  if (!target->is_single_file()) {
-    return report.fail(
-        {ErrorCode::kInvalidArgument, "-o " + output + ": should be a file, .png, .svg or .pdf"});
   }
   const auto figure = figures::draw_radiation(temperatures_k, band, panel_width);
   if (!figure) {

@@ -38,13 +38,9 @@ int SnrCommand::draw() const {
   if (!source) {
     return report.fail(source.error());
   }
-  auto target = FigureOutput::create(common.output, "png", common.input_files(*source));
+  auto target = FigureOutput::create_file(common.output, common.input_files(*source));
   if (!target) {
     return report.fail(target.error());
-  }
-  if (!target->is_single_file()) {
-    return report.fail({ErrorCode::kInvalidArgument,
-                        "-o " + common.output + ": should be a file, .png, .svg or .pdf"});
   }
   std::vector<Image<std::uint16_t>> counts;
   std::vector<std::string> sources;
@@ -76,6 +72,7 @@ void add_snr(CLI::App& program, int& exit_code) {
       "snr", "frames side by side, raw and in grey, with range in degC, noise and their ratio");
   auto command = std::make_shared<SnrCommand>();
   command->common.add_to(app);
+  app.get_option("--output")->description("picture: .png, .svg or .pdf");
   app.add_option("--gain", command->grey_scale.gain, "grey levels per count of the 8-bit view")
       ->check(CLI::Range(1e-6, 1000.0))
       ->capture_default_str();

@@ -22,6 +22,9 @@ struct TrackCommand : DetectorCommand {
 
 void TrackCommand::add_to(CLI::App& app) {
   DetectorCommand::add_to(app);
+  app.get_option("--output")
+      ->description(
+          "file of all frames (.jsonl or .csv), directory, or - for JSON lines on standard output");
   add_denoising_to(app);
   common.add_validity_to(app);
   app.add_option("--write", write, "for -o DIR: json,csv,overlay,distance (default json)");

@@ -42,6 +42,21 @@ class Pages : public ProgramTest {
   static double number(const Json& value) { return value.get<double>(); }
 };
 
+// Strong noise, as of frames with swapped bytes.
+TEST_F(Pages, ProbeKeepsTheNumbersOfTheMapApart) {
+  const std::string page = output_of("probe 'sim:desk?width=96&height=72&frames=2&sigma=2000'");
+  const std::size_t map = page.find("map: sigma over the picture");
+  ASSERT_NE(map, std::string::npos) << page;
+  std::istringstream row(page.substr(page.find('\n', page.find('\n', map) + 1)));
+  for (int column = 0; column < 3; ++column) {
+    double sigma = 0;
+    row >> sigma;
+    EXPECT_GT(sigma, 1000) << page;
+    EXPECT_LT(sigma, 3000) << page;
+    EXPECT_EQ(row.peek(), ' ') << page;
+  }
+}
+
 TEST_F(Pages, ProbeTellsTheNumbersOfItsJson) {
   const std::string probe = "probe 'sim:desk?width=96&height=72&frames=6&sigma=6'";
   const std::string page = output_of(probe);
@@ -60,6 +75,8 @@ TEST_F(Pages, ProbeTellsTheNumbersOfItsJson) {
   expect_row(page, "SNR", fmt::format("{:.0f}", number(noise["snr"])));
   expect_row(page, "lasting", std::to_string(json["bad_pixels"].get<int>()));
   expect_row(page, "columns", fmt::format("{:.2f}", number(noise["column_sigma_counts"])));
+  EXPECT_NE(page.find(" vertical stripes: "), std::string::npos) << page;
+  EXPECT_NE(page.find(" horizontal stripes: "), std::string::npos) << page;
   expect_row(page, "repeated", "0 frames");
   for (const Json& entry : json["clipping"]) {
     const double gain = number(entry["gain"]);

@@ -147,7 +147,7 @@ TEST(RawFiles, MayHaveHeaders) {
   write_text(path, "HEADE---ab---c");
   EXPECT_EQ(
       rows_of({path}, options),
-      (Rows{"ab", path + ": 4 bytes are left over after 1 frames of 5 bytes (2x1, 8 bits and a "
+      (Rows{"ab", path + ": 4 bytes are left over after 1 frame of 5 bytes (2x1, 8 bits and a "
                          "header of 3); do --raw-size and --raw-format fit, and is there a "
                          "header (--raw-header, --raw-frame-header)?"}));
   write_text(path, "HEA");

@@ -141,7 +141,7 @@ TEST(StandardInputFrames, ThatEndEarlyAreAnError) {
            std::pair<std::string, std::string>{
                "", "standard input: empty; there should be frames of 4 bytes (2x2, 8 bits)"},
            {"abcdefg",
-            "standard input: 3 bytes are left over after 1 frames of 4 bytes (2x2, 8 bits); do "
+            "standard input: 3 bytes are left over after 1 frame of 4 bytes (2x2, 8 bits); do "
             "--raw-size and --raw-format fit, and is there a header (--raw-header, "
             "--raw-frame-header)?"},
        }) {

@@ -123,7 +123,7 @@ TEST(Source, RefusesRawFramesThatDoNotFit) {
   const auto sequence = read_all({directory / "x.raw"}, options);
   EXPECT_EQ(sequence.pixels.size(), 1U);
   ASSERT_EQ(sequence.errors.size(), 1U);
-  EXPECT_NE(sequence.errors[0].find("1 bytes are left over after 1 frames of 4 bytes"),
+  EXPECT_NE(sequence.errors[0].find("1 byte is left over after 1 frame of 4 bytes"),
             std::string::npos);
 }
 

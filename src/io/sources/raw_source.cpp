@@ -114,8 +114,9 @@ class RawSource final : public FrameSource {
                      file_.name() + ": empty; there should be frames" + frames);
     }
     return failure(ErrorCode::kBadData,
-                   file_.name() + ": " + std::to_string(count) + " bytes are left over after " +
-                       std::to_string(index_) + " frames" + frames +
+                   file_.name() + ": " + std::to_string(count) +
+                       (count == 1 ? " byte is" : " bytes are") + " left over after " +
+                       std::to_string(index_) + (index_ == 1 ? " frame" : " frames") + frames +
                        "; do --raw-size and --raw-format fit, and is there a header "
                        "(--raw-header, --raw-frame-header)?");
   }
