@@ -94,7 +94,9 @@ std::string wrong_first_word(const CLI::App& program, const std::vector<std::str
       std::find(commands.begin(), commands.end(), word) != commands.end()) {
     return "";
   }
-  const std::string meant = did_you_mean(word, commands);
+  std::vector<std::string> known = commands;
+  known.emplace_back("help");
+  const std::string meant = did_you_mean(word, known);
   return word + ": no such command" + (meant.empty() ? "; there are " + joined(commands) : meant);
 }
 

@@ -121,6 +121,7 @@ TEST_F(Words, AWrongWordIsAnsweredWithWhatWasMeant) {
       {{"detct x", 2, "detct: no such command; did you mean detect?"},
        {"Detect x", 2, "did you mean detect?"},
        {"sim desk", 2, "did you mean simulate?"},
+       {"hepl detect", 2, "hepl: no such command; did you mean help?"},
        {"zebra", 2, "zebra: no such command; there are detect, track, trace"},
        {"detect x --presett fast", 2,
         "--presett: detect has no such option; did you mean --preset?"},
