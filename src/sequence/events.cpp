@@ -120,6 +120,9 @@ void EventFinder::Impl::compare(double sigma_counts, FrameEvents& events) {
       sample.push_back(std::abs(current.view()(x, y) - last.view()(x, y)));
     }
   }
+  if (sample.empty()) {  // a frame of a few pixels
+    return;
+  }
   const double difference =
       kSigmaOverMad * static_cast<double>(detail::nth_value(std::span(sample), sample.size() / 2));
   if (difference < tuning.near_frozen_share * std::sqrt(2.0) * sigma_counts) {

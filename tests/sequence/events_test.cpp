@@ -180,6 +180,14 @@ TEST(EventFinder, ThreeFramesWithoutAMotionAreACut) {
   EXPECT_EQ(bits({}, false), 0U);
 }
 
+TEST(EventFinder, TakesFramesOfAFewPixels) {
+  EventFinder finder;
+  for (const unsigned seed : {1U, 2U}) {
+    const auto tiny = test::noise_image<std::uint16_t>(2, 1, 3000, kSigma, seed);
+    EXPECT_EQ(finder.look(Frame(tiny), kSigma).bits, 0U);
+  }
+}
+
 TEST(EventFinder, LooksAtLevelsAndFloatsAlike) {
   EventFinder finder;
   const auto values = test::noise_image<float>(kWidth, kHeight, 21, 0.05, 1);
