@@ -89,7 +89,7 @@ Result<sim::SceneOptions> SimulateCommand::options() const {
     if (Status status = sim::set_scene_key(key, value, scratch); !status) {
       return tl::unexpected(status.error());
     }
-    keys += "&" + key + "=" + value;
+    keys.append("&").append(key).append("=").append(value);
   }
   return sim::parse_scene(scene.substr(0, mark) + "?" + keys).map([&](sim::SceneOptions options) {
     options.depth = writes("depth");

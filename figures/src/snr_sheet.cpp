@@ -85,6 +85,7 @@ Result<Figure> draw_snr(std::span<const SnrFrame> frames, const GreyScaleOptions
     }
   }
   std::vector<Panel> panels;
+  panels.reserve(2 * shown.size());
   for (const SnrFrame& frame : shown) {
     panels.push_back(raw_panel(frame, degc_per_count));
   }

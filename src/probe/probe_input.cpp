@@ -29,6 +29,7 @@ double median_of(std::vector<int>& values) {
 template <class F>
 double median_magnitude(int width, F&& value) {
   std::vector<int> values;
+  values.reserve(static_cast<std::size_t>(width));
   for (int x = 0; x < width; ++x) {
     values.push_back(std::abs(value(x)));
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <iterator>
 
 #include "thermedge/similar_names.hpp"
 
@@ -146,6 +147,7 @@ Status set_source_option(std::string_view key, std::string_view text, SourceOpti
 
 std::vector<std::string> source_option_names() {
   std::vector<std::string> names;
+  names.reserve(std::size(kOptions));
   for (const Option& option : kOptions) {
     names.emplace_back(option.key);
   }
