@@ -91,7 +91,8 @@ struct MotionEstimator::Impl {
   Geometry geometry;
   int width = 0, height = 0;
   std::array<std::vector<ComparedPoint>, kLevels> points;
-  std::vector<float> residuals, magnitudes;
+  std::vector<float> residuals;  // of the points of a level
+  std::vector<float> present;    // those that are numbers
   Motion motion;
   Warp last_warp;   // that of `motion`
   Matrix factor{};  // of the normal equations at the last step
@@ -113,7 +114,7 @@ void MotionEstimator::restart() {
 std::size_t MotionEstimator::memory_bytes() const {
   const Impl& self = *impl_;
   return detail::memory_of(self.last, self.current, self.points[0], self.points[1], self.points[2],
-                           self.residuals, self.magnitudes);
+                           self.residuals, self.present);
 }
 
 const Motion& MotionEstimator::update(ImageView<const std::uint16_t> counts, double level_counts,
@@ -300,26 +301,24 @@ double MotionEstimator::Impl::agreement(const Warp& warp, int level, double leve
   const std::vector<ComparedPoint>& compared = points[static_cast<std::size_t>(level)];
   residuals.clear();
   residuals.reserve(compared.size());
+  present.clear();
+  present.reserve(compared.size());
   for (const ComparedPoint& point : compared) {
-    const float rest = residual(point, warp, level);
-    if (!std::isnan(rest)) {
-      residuals.push_back(rest);
+    residuals.push_back(residual(point, warp, level));
+    if (!std::isnan(residuals.back())) {
+      present.push_back(residuals.back());
     }
   }
-  if (residuals.size() < tuning.fewest_points) {
+  if (present.size() < tuning.fewest_points) {
     return 0;
   }
-  magnitudes.assign(residuals.begin(), residuals.end());
-  const float offset = detail::nth_value(std::span(magnitudes), magnitudes.size() / 2);
+  const float offset = detail::nth_value(std::span(present), present.size() / 2);
   const double noise = noise_of_residual(level_counts);
   std::size_t agreeing = 0;
-  std::size_t i = 0;
-  for (const ComparedPoint& point : compared) {
-    if (std::isnan(residual(point, warp, level))) {
-      continue;
-    }
-    const double limit = tuning.inlier_sigmas * deviation(point, noise);
-    agreeing += std::abs(static_cast<double>(residuals[i++] - offset)) <= limit ? 1 : 0;
+  for (std::size_t i = 0; i < compared.size(); ++i) {
+    const double limit = tuning.inlier_sigmas * deviation(compared[i], noise);
+    // Not a number, so never within, where the point left the picture.
+    agreeing += std::abs(static_cast<double>(residuals[i] - offset)) <= limit ? 1 : 0;
   }
   return static_cast<double>(agreeing) / static_cast<double>(compared.size());
 }
