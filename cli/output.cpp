@@ -131,4 +131,15 @@ Status InputFiles::check_directory(std::string_view option, const std::string& d
   return {};
 }
 
+Status InputFiles::check_directories(std::string_view option, const std::string& directory,
+                                     std::span<const std::string> folders) const {
+  Status status = check_directory(option, directory);
+  for (const std::string& folder : folders) {
+    status = status.and_then([&] {
+      return check_directory(option, (std::filesystem::path(directory) / folder).string());
+    });
+  }
+  return status;
+}
+
 }  // namespace thermedge::cli

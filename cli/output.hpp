@@ -44,6 +44,9 @@ class InputFiles {
   [[nodiscard]] Status check_file(std::string_view option, const std::string& path) const;
   // Fails where one of the files lies in `directory`.
   [[nodiscard]] Status check_directory(std::string_view option, const std::string& directory) const;
+  // The same for `directory` and its folders of these names, where results of a kind each lie.
+  [[nodiscard]] Status check_directories(std::string_view option, const std::string& directory,
+                                         std::span<const std::string> folders) const;
 
  private:
   struct Identity {

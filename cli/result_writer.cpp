@@ -96,18 +96,6 @@ Status check_use(const ResultRequest& request, bool is_json_lines,
   return {};
 }
 
-// Results of a directory lie in folders of it, one for each kind.
-Status check_directories(const std::string& output, const std::vector<std::string>& kinds,
-                         const InputFiles& inputs) {
-  Status status = inputs.check_directory("-o", output);
-  for (const std::string& kind : kinds) {
-    status = status.and_then([&] {
-      return inputs.check_directory("-o", (std::filesystem::path(output) / kind).string());
-    });
-  }
-  return status;
-}
-
 std::string summary(const Detection& detection, const std::string& source) {
   std::size_t edgels = 0;
   for (const Edge& edge : detection.edges.kept_edges()) {
@@ -179,7 +167,7 @@ Result<ResultWriter> ResultWriter::create_in(const OutputTarget& target,
   if (kinds.empty()) {
     kinds = {"mask"};
   }
-  return check_directories(output, kinds, inputs).map([&] {
+  return inputs.check_directories("-o", output, kinds).map([&] {
     return ResultWriter(Mode::kDirectory, output, kinds, inputs);
   });
 }

@@ -32,15 +32,6 @@ std::string file_in(const std::string& directory, std::string_view name) {
   return (fs::path(directory) / name).string();
 }
 
-Status check_directories(const std::string& output, const std::vector<std::string>& kinds,
-                         const InputFiles& inputs) {
-  Status status = inputs.check_directory("-o", output);
-  for (const std::string& kind : kinds) {
-    status = status.and_then([&] { return inputs.check_directory("-o", file_in(output, kind)); });
-  }
-  return status;
-}
-
 std::string summary(const TrackedFrame& frame, const std::string& source) {
   std::size_t edgels = 0;
   for (const TrackRun& run : frame.tracks.runs) {
@@ -85,7 +76,7 @@ Result<TrackWriter> TrackWriter::create(const std::string& output, const std::st
   }
   if (target->kind == OutputKind::kDirectory) {
     list = list.empty() ? std::vector<std::string>{"json"} : list;
-    return check_directories(output, list, inputs).map([&] {
+    return inputs.check_directories("-o", output, list).map([&] {
       return TrackWriter(target->kind, output, list, quiet, inputs);
     });
   }

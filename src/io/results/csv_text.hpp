@@ -8,6 +8,8 @@
 #include <string>
 #include <string_view>
 
+#include "thermedge/detection.hpp"
+
 namespace thermedge::io {
 
 // A row of cells; numbers do not depend on the locale.
@@ -34,5 +36,11 @@ class CsvText {
 
   std::string text_;
 };
+
+// The first two cells of each row: number and time of the frame.
+[[nodiscard]] inline std::string frame_cells(const Detection& detection) {
+  return std::to_string(detection.index) + "," +
+         (detection.stamp_ns ? std::to_string(*detection.stamp_ns) : std::string());
+}
 
 }  // namespace thermedge::io

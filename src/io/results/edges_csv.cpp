@@ -43,9 +43,7 @@ std::string_view edges_csv_header() { return kHeader; }
 
 std::string edges_to_csv_rows(const Detection& detection, const EdgesFileOptions& options) {
   const EdgeSet& set = detection.edges;
-  const std::string frame =
-      std::to_string(detection.index) + "," +
-      (detection.stamp_ns ? std::to_string(*detection.stamp_ns) : std::string());
+  const std::string frame = frame_cells(detection);
   CsvText csv;
   const std::size_t count = options.dropped_edges ? set.edges.size() : set.kept;
   for (std::size_t i = 0; i < count; ++i) {

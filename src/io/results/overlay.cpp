@@ -114,14 +114,21 @@ void draw_background(const Detection& detection, ImageView<const std::uint16_t> 
   }
 }
 
-void draw_edge(const EdgeSet& set, const Edge& edge, Rgb colour, Canvas& canvas) {
+// `colour_at(i)`: of the line from edgel i on.
+template <class Colour>
+void draw_edge(const EdgeSet& set, const Edge& edge, Colour&& colour_at, Canvas& canvas) {
   const Edgels& e = set.edgels;
   const std::uint32_t first = edge.edgels.first;
   const std::uint32_t last = first + edge.edgels.count - 1;
   for (std::uint32_t i = first; i <= last; ++i) {
     const std::uint32_t next = i < last ? i + 1 : (edge.closed ? first : last);
-    canvas.line(e.x[i], e.y[i], e.x[next], e.y[next], colour);
+    canvas.line(e.x[i], e.y[i], e.x[next], e.y[next], colour_at(i));
   }
+}
+
+void draw_edge(const EdgeSet& set, const Edge& edge, Rgb colour, Canvas& canvas) {
+  draw_edge(
+      set, edge, [=](std::uint32_t) { return colour; }, canvas);
 }
 
 void draw_corners(const EdgeSet& set, const Edge& edge, Canvas& canvas) {
@@ -207,15 +214,12 @@ void draw_tracks(const TrackedFrame& frame, ImageView<const std::uint16_t> count
   overlay.resize(detection.width * kScale, detection.height * kScale);
   draw_background(detection, counts, overlay);
   Canvas canvas(overlay);
-  const Edgels& e = detection.edges.edgels;
+  const auto colour_at = [&](std::uint32_t edgel) {
+    const std::int64_t track = frame.tracks.track[edgel];
+    return track >= 0 ? track_colour(track) : kNoTrack;
+  };
   for (const Edge& edge : detection.edges.kept_edges()) {
-    const std::uint32_t last = edge.edgels.first + edge.edgels.count - 1;
-    for (std::uint32_t i = edge.edgels.first; i <= last; ++i) {
-      const std::uint32_t next = i < last ? i + 1 : (edge.closed ? edge.edgels.first : last);
-      const std::int64_t track = frame.tracks.track[i];
-      canvas.line(e.x[i], e.y[i], e.x[next], e.y[next],
-                  track >= 0 ? track_colour(track) : kNoTrack);
-    }
+    draw_edge(detection.edges, edge, colour_at, canvas);
   }
 }
 

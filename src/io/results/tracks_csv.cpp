@@ -21,9 +21,7 @@ std::string_view tracks_csv_header() { return kHeader; }
 std::string tracks_to_csv_rows(const TrackedFrame& frame) {
   const Detection& detection = frame.detection;
   const Edgels& e = detection.edges.edgels;
-  const std::string of_frame =
-      std::to_string(detection.index) + "," +
-      (detection.stamp_ns ? std::to_string(*detection.stamp_ns) : std::string());
+  const std::string of_frame = frame_cells(detection);
   CsvText csv;
   for (const TrackRun& run : frame.tracks.runs) {
     for (std::uint32_t i = 0; i < run.edgels.count; ++i) {
